@@ -19,6 +19,8 @@ struct Config {
   double resend_s = 2.0;
   bool rewind_for_new_estimator = true;
   bool publish_clock = false;
+  double settle_s = 0.3;
+  double seek_s = 5.0;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
@@ -27,7 +29,8 @@ struct Config {
       "or as measured");
     v("start_time_s", start_time_s, {.min = 0.0, .max = 2e9},
       "Offset of the stamps: stamp = start_time_s + t_s");
-    v("wait_for_readers", wait_for_readers, "Start only when every published topic has a reader");
+    v("wait_for_readers", wait_for_readers,
+      "Start only when every published topic has a reader; of an MCAP recording any topic");
     v("reader_deadline_s", reader_deadline_s, {.min = 0.0, .min_open = true},
       "Time without a reader after which the player fails, s");
     v("step_deadline_s", step_deadline_s, {.min = 0.0, .min_open = true},
@@ -39,6 +42,10 @@ struct Config {
       "frames");
     v("publish_clock", publish_clock,
       "Publish the time of the recording on /clock, for nodes with dds.use_sim_time");
+    v("settle_s", settle_s, {.min = 0.0},
+      "Start only when no further reader or writer has appeared for this time, s");
+    v("seek_s", seek_s, {.min = 0.0, .min_open = true},
+      "Time by which the arrow keys move in an MCAP recording, s");
   }
 };
 

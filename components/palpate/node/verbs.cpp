@@ -10,6 +10,7 @@
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/node/demo/demo_verb.hpp"
+#include "components/palpate/node/play/play_verb.hpp"
 #include "components/palpate/node/record/record_verb.hpp"
 #include "components/palpate/node/watch/watch_verb.hpp"
 #include "components/palpate/recordings/export_verb.hpp"
@@ -25,7 +26,7 @@ int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
       DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
       DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     RecordVerb(),
-      RepairVerb(),   ExportVerb(), InfoVerb(),     ReferenceVerb()};
+      PlayVerb(),     RepairVerb(), ExportVerb(),   InfoVerb(),      ReferenceVerb()};
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
 }

@@ -27,6 +27,7 @@ class ImagePublisher {
   const std::string& device() const { return identity_.device; }
   const std::string& depth_topic() const { return camera_.depth_topic(); }
   bool is_read() const { return camera_.is_read(); }
+  std::uint32_t readers() const { return camera_.readers(); }
   [[nodiscard]] bool WaitUntilReceived(std::chrono::nanoseconds at_most) {
     return camera_.WaitUntilReceived(at_most);
   }

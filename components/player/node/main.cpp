@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/player/node/command_line.hpp"
-#include "libs/app/run_node.hpp"
+#include "libs/app/run_main.hpp"
 
 int main(int argc, char** argv) {
   using namespace palpate;
-  return app::RunNode("palpate-player", player::ReadCommand, player::MakeNode, argc, argv);
+  return app::RunMain("palpate-player", [&]() -> int {
+    const auto command = player::ReadCommand(argc, argv);
+    return command ? player::Play(*command) : app::kExitDone;
+  });
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "components/player/node/convert.hpp"
+#include "components/player/node/periods.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
@@ -18,10 +19,6 @@ namespace palpate::player {
 namespace {
 
 using Clock = dds::WaitSet::Clock;
-
-constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr auto kClockPeriod = std::chrono::milliseconds(10);
-constexpr auto kLastMessagesWait = std::chrono::seconds(2);
 
 }  // namespace
 
@@ -65,11 +62,25 @@ void PlayerNode::Run() {
   if (!received) log_.Write(Severity::kWarning, "a reader has not confirmed the last frames");
 }
 
+/// Readers that start together, a recorder among them, are found one after the other.
+void PlayerNode::Settle() {
+  const auto readers = [this] {
+    return joint_states_.counters().matched_ever + markers_.counters().matched_ever +
+           (images_ ? images_->readers() : 0);
+  };
+  for (std::uint32_t known = readers() + 1; known != readers();) {
+    known = readers();
+    const auto changed = [&] { return readers() != known; };
+    loop_.DispatchUntil(changed, Clock::now() + FromSeconds(config_.settle_s));
+    if (loop_.stopped()) return;
+  }
+}
+
 void PlayerNode::WaitForReaders() {
   const std::string topic = images_ ? images_->depth_topic() : markers_.ros_name();
   log_.Write(Severity::kInfo, "waiting for readers of " + topic);
   const Clock::time_point deadline = Clock::now() + FromSeconds(config_.reader_deadline_s);
-  if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
+  if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return Settle();
   if (loop_.stopped()) return;
   throw RunError("no reader of " + topic +
                  std::string(playback_.step ? " and answers on " + forces_.ros_name() : "") +

@@ -17,16 +17,7 @@
 
 namespace palpate::player {
 
-/// Settings of the process: those of the player, and those of its DDS side.
-struct NodeConfig : Config {
-  dds::NodeSettings dds;
-
-  template <typename Visitor>
-  void Visit(Visitor&& v) {
-    Config::Visit(v);
-    v("dds", dds, "DDS side");
-  }
-};
+using NodeConfig = dds::WithNodeSettings<Config>;
 
 /// How the events follow each other.
 struct Playback {
@@ -54,6 +45,7 @@ class PlayerNode {
   using Time = dds::WaitSet::Clock::time_point;
 
   void WaitForReaders();
+  void Settle();
   bool ReadersAreThere() const;
   void PlayAll();
   void Play(const Event& event);
