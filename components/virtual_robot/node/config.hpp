@@ -17,6 +17,7 @@ struct NodeConfig {
   bool repeat = true;
   double max_step_s = 0.1;
   int threads = 2;
+  bool publish_clock = false;
   dds::NodeSettings dds;
 
   template <typename Visitor>
@@ -32,6 +33,8 @@ struct NodeConfig {
       "Largest step of bench time between two states, s; what a slow computer misses beyond it is "
       "counted as dropped");
     v("threads", threads, {.min = 1, .max = 64}, "Threads of the solver");
+    v("publish_clock", publish_clock,
+      "Publish the stamp of each state on /clock, for nodes with dds.use_sim_time");
     v("dds", dds, "DDS side");
   }
 };

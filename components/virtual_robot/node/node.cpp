@@ -51,6 +51,7 @@ VirtualRobotNode::VirtualRobotNode(const NodeConfig& config, BenchSetup bench, i
       commanded_m_{NothingDriven(bench_.cables.size())},
       last_command_ns_{MonotonicNow_ns()},
       inputs_{participant_, loop_, log_} {
+  if (config.publish_clock) ros_clock_.emplace(participant_.CreateWriter(dds::kClockTopic));
   inputs_.Expect(commands_, "the controller", dds::InputKind::kStream,
                  [this] { return config_.commands == "topic"; });
   loop_.Attach(commands_, [this] { TakeCommands(); });
@@ -104,6 +105,11 @@ scenario::BenchInputs VirtualRobotNode::InputsNow() {
 void VirtualRobotNode::Publish(const scenario::BenchInputs& inputs,
                                const scenario::Moment& moment) {
   const std::int64_t stamp_ns = dds::WallClockNs();
+  if (ros_clock_) {
+    dds::Message<idl::rosgraph_msgs::Clock> now;
+    now->clock = dds::TimeFromNs(stamp_ns);
+    Send(*ros_clock_, std::move(now));
+  }
   const VirtualRobot& robot = *bench_.robot;
   const auto& scenario = bench_.schedule.scenario();
   const auto& plan = scenario.recordings[At(moment.recording)];

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ class VirtualRobotNode {
   dds::Writer<idl::palpate_msgs::MeshState> mesh_state_;
   dds::Writer<idl::palpate_msgs::ForceArray> forces_;
   dds::Writer<idl::palpate_msgs::BenchState> bench_state_;
+  std::optional<dds::Writer<idl::rosgraph_msgs::Clock>> ros_clock_;  ///< with publish_clock
   BenchClock clock_;
   double pass_start_s_ = 0.0;  ///< of the present pass through the scenario, bench time
   Eigen::VectorXd commanded_m_;

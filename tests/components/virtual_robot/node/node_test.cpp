@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "libs/dds/stamp.hpp"
@@ -152,6 +153,26 @@ dds::Message<idl::sensor_msgs::JointState> Pull(const std::string& cable, double
   dds::SetText(message->name._buffer[0], cable);
   dds::SetNumbers(message->position, &displacement_m, 1);
   return message;
+}
+
+TEST(VirtualRobotNode, TheClockIsTheStampOfTheState) {
+  dds::TestNode listener("listener");
+  auto clock = listener.participant.CreateReader(dds::kClockTopic);
+  auto states = listener.participant.CreateReader(dds::kJointStatesTopic);
+  std::set<std::int64_t> times_ns;
+  bool met = false;
+  listener.loop.Attach(clock, [&] {
+    for (const auto& message : clock.Take()) times_ns.insert(dds::StampNs(message.clock));
+  });
+  listener.loop.Attach(states, [&] {
+    for (const auto& message : states.Take()) {
+      met = met || times_ns.contains(dds::StampNs(message.header.stamp));
+    }
+  });
+  NodeConfig config;
+  config.publish_clock = true;
+  const RunningNode node(config);
+  EXPECT_TRUE(listener.WaitFor([&] { return met; }));
 }
 
 TEST(VirtualRobotNode, PublishesDrivesAndTruthOfTheSameInstant) {
