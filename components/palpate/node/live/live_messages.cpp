@@ -22,8 +22,10 @@ Status ParseStatus(std::string_view word, std::string_view reason) {
   return {StatusCode::kInvalidInput, "unknown status '" + std::string(word) + "'"};
 }
 
-dds::Participant JoinDomain(const std::string& node_name, int domain_id) {
-  const dds::NodeSettings settings;
+dds::Participant JoinDomain(const std::string& node_name, int domain_id,
+                            const std::vector<std::string>& remap) {
+  dds::NodeSettings settings;
+  settings.remap = remap;
   return dds::Participant(dds::ParticipantOf(settings, node_name, domain_id),
                           dds::LoadTopicTable(settings, app::LoadYaml, app::ParseYaml));
 }

@@ -17,8 +17,10 @@
 
 namespace palpate::command {
 
-/// A node with the built-in topic table. Throws RunError where DDS refuses.
-dds::Participant JoinDomain(const std::string& node_name, int domain_id);
+/// A node with the built-in topic table. `remap`: rules as TopicNames takes them. Throws InputError
+/// for a rule that is none, RunError where DDS refuses.
+dds::Participant JoinDomain(const std::string& node_name, int domain_id,
+                            const std::vector<std::string>& remap = {});
 
 /// The status of a word of forces.csv; an unknown word is an invalid input.
 Status ParseStatus(std::string_view word, std::string_view reason);

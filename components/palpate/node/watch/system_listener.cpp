@@ -18,8 +18,8 @@ double MonotonicNow_s() { return NsToSeconds(MonotonicNow_ns()); }
 
 }  // namespace
 
-SystemListener::SystemListener(int domain_id)
-    : participant_(JoinDomain("palpate_watch", domain_id)),
+SystemListener::SystemListener(int domain_id, const std::vector<std::string>& remap)
+    : participant_(JoinDomain("palpate_watch", domain_id, remap)),
       loop_(participant_),
       builder_(domain_id),
       statuses_(participant_.CreateReader(dds::kComponentStatusTopic)),

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "components/palpate/node/watch/snapshot_builder.hpp"
 #include "libs/dds/participant.hpp"
@@ -16,8 +18,9 @@ namespace palpate::command {
 /// and clouds. Publishes nothing.
 class SystemListener {
  public:
-  /// Throws RunError where DDS refuses.
-  explicit SystemListener(int domain_id);
+  /// `remap`: other names of its topics, "__ns:=/left". Throws InputError for a rule that is none,
+  /// RunError where DDS refuses.
+  explicit SystemListener(int domain_id, const std::vector<std::string>& remap = {});
 
   /// Takes messages until `done()` holds, which is asked at least every 50 ms, or `limit` passes.
   void Listen(const std::function<bool()>& done, std::chrono::duration<double> limit);

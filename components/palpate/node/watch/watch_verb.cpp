@@ -89,7 +89,7 @@ int Watch(const WatchOptions& options) {
   if (options.timeout_s <= 0.0) {
     throw InputError("--timeout must be above 0 s, not " + FormatNumber(options.timeout_s));
   }
-  SystemListener listener(options.domain_id);
+  SystemListener listener(options.domain_id, options.remap);
   return options.once ? WatchOnce(options, &listener) : WatchOn(options, &listener);
 }
 
@@ -98,6 +98,8 @@ app::Verb WatchVerb() {
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<WatchOptions>();
             app::DeclareDomain(arguments, &options->domain_id);
+            arguments.Repeated("--remap FROM:=TO", &options->remap,
+                               "Another name for a topic, or __ns:=/left for all of a namespace");
             arguments.Flag("--once", &options->once,
                            "Print one state when all processes have reported, and exit; exit code "
                            "1 where none does");

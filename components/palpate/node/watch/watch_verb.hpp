@@ -3,12 +3,16 @@
 
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "libs/app/verbs.hpp"
 
 namespace palpate::command {
 
 struct WatchOptions {
   int domain_id = 0;
+  std::vector<std::string> remap;
   bool once = false;
   bool json = false;
   double rate_hz = 2.0;    ///< 0.1 to 20

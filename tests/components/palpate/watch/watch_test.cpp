@@ -29,7 +29,8 @@ int TestDomain() { return std::atoi(std::getenv("ROS_DOMAIN_ID")); }
 /// Stands in for palpate-force-estimation: reports and sends a force until it goes.
 class FakeEstimator {
  public:
-  FakeEstimator() {
+  explicit FakeEstimator(const std::vector<std::string>& remap = {})
+      : participant_(JoinDomain("palpate_force_estimation", TestDomain(), remap)) {
     loop_.Every(std::chrono::milliseconds(20), [this] { SendForce(); });
     loop_.Every(std::chrono::milliseconds(200), [this] {
       health_.Report(Status::Ok(), {.received = sent_, .latencies_s = {}}, {{"waiting_for", ""}},
@@ -54,7 +55,7 @@ class FakeEstimator {
     EXPECT_TRUE(forces_.Write(message));
   }
 
-  dds::Participant participant_ = JoinDomain("palpate_force_estimation", TestDomain());
+  dds::Participant participant_;
   dds::WaitSet loop_{participant_};
   dds::HealthReporter health_{participant_, "force_estimation", dds::HealthReporter::Clock::now()};
   dds::Writer<idl::palpate_msgs::ForceArray> forces_ = participant_.CreateWriter(dds::kForcesTopic);
@@ -73,6 +74,18 @@ TEST(Watch, TheListenerShowsAProcessAndItsForce) {
   ASSERT_TRUE(snapshot.forces);
   ASSERT_EQ(snapshot.forces->forces.size(), 1u);
   EXPECT_NEAR(snapshot.forces->forces[0].force_N.norm(), 0.5, 1e-12);
+}
+
+TEST(Watch, SeesOneRobotOfTwoByItsNamespace) {
+  const std::vector<std::string> left{"__ns:=/left"};
+  const FakeEstimator estimator(left);
+  SystemListener listener(TestDomain(), left);
+  const SystemListener other(TestDomain(), {"__ns:=/right"});
+  listener.Listen([&] { return listener.HeardAll() && listener.Snapshot().forces; },
+                  std::chrono::seconds(10));
+  EXPECT_EQ(listener.Snapshot().processes.size(), 1u);
+  EXPECT_TRUE(listener.Snapshot().forces);
+  EXPECT_TRUE(other.Snapshot().processes.empty());
 }
 
 TEST(Watch, OncePrintsOneObjectAndExitsWith0) {
