@@ -19,7 +19,7 @@ struct Config {
   double split_s = 0.0;
   double waiting_MB = 128.0;
   double recent_s = 20.0;
-  double recent_MB = 48.0;
+  double recent_MB = 128.0;
   bool save_on_error = true;
   double error_pause_s = 20.0;
 
@@ -40,7 +40,9 @@ struct Config {
     v("recent_s", recent_s, {.min = 0.0},
       "Messages of the last so many seconds are kept in memory for snapshots, s; 0: none");
     v("recent_MB", recent_MB, {.min = 1.0},
-      "Memory for them, 10^6 bytes; when it is full, the oldest of the largest topic go first");
+      "Memory for them, 10^6 bytes; when it is full, the largest topics keep all messages of the "
+      "last "
+      "second, and evenly fewer of the time before");
     v("save_on_error", save_on_error,
       "Save the last seconds when a component reports an error on /diagnostics");
     v("error_pause_s", error_pause_s, {.min = 0.0}, "Least time between two such files, s");

@@ -14,8 +14,10 @@
 
 namespace palpate::recorder {
 
-/// The messages of the last seconds, for a snapshot. Where they need more memory than there is,
-/// the oldest of the largest topic go first: images reach back less far than all else.
+/// The messages of the last seconds, for a snapshot. Where they need more memory than there is, the
+/// largest topic keeps its newest second in full, and one message per slot of the time before.
+/// Slots of all topics begin at the same times, so that depth and colour of one frame stay
+/// together.
 class RecentMessages {
  public:
   RecentMessages(double duration_s, std::uint64_t max_bytes);
@@ -27,19 +29,29 @@ class RecentMessages {
   std::vector<RecordedMessage> Snapshot() const;
 
   std::uint64_t bytes() const { return bytes_; }
-  /// From the oldest to the newest message of the topic that reaches back least far, of those that
+  /// From the oldest to the newest message of the topic that reaches back least, of those that
   /// lost messages for want of memory; the whole duration where none did.
   double shortest_s() const;
+  /// The longest slot of any topic, s; 0: none is thinned.
+  double slot_s() const;
 
  private:
   struct Topic {
-    std::deque<RecordedMessage> messages;
+    std::deque<RecordedMessage> old;    ///< one per slot
+    std::deque<RecordedMessage> fresh;  ///< all
     std::uint64_t bytes = 0;
-    bool cut = false;  ///< lost messages for want of memory
+    std::uint64_t fresh_bytes = 0;
+    std::int64_t slot_ns = 0;  ///< 0: all are kept
+    std::int64_t slot_changed_ns = 0;
+    bool cut = false;  ///< lost its oldest messages for want of memory
   };
 
+  void Age(Topic& topic);
+  void Thin(Topic& topic);
+  void MakeRoom(Topic& topic);
   void DropOld(Topic& topic, std::int64_t before_ns);
   void DropFirst(Topic& topic);
+  void Release(Topic& topic, std::uint64_t size);
 
   double duration_s_;
   std::uint64_t max_bytes_;

@@ -19,6 +19,7 @@ struct TopicDescription {
   std::string schema;
   std::string qos;       ///< offered by its writers, in the YAML of rosbag2
   bool latched = false;  ///< late joiners get the last message
+  bool has_key = false;  ///< of its type
 
   bool operator==(const TopicDescription&) const = default;
 };

@@ -21,11 +21,14 @@ std::uint16_t RecordingFile::ChannelOf(const RecordedMessage& message) {
   if (channel.id != 0) return channel.id;
   const TopicDescription& topic = *message.topic;
   const std::uint16_t schema = writer_.AddSchema(topic.type, topic.schema_encoding, topic.schema);
+  std::map<std::string, std::string> metadata{{"offered_qos_profiles", topic.qos}};
+  // A writer that is to send them again must have it as the readers of the type.
+  if (topic.has_key) metadata["has_key"] = "true";
   channel.id = writer_.AddChannel({.id = 0,
                                    .schema_id = schema,
                                    .topic = topic.topic,
                                    .message_encoding = "cdr",
-                                   .metadata = {{"offered_qos_profiles", topic.qos}}});
+                                   .metadata = std::move(metadata)});
   return channel.id;
 }
 

@@ -137,6 +137,7 @@ void RecordingThread::WriteAll(const Work& work) {
   const std::lock_guard lock(mutex_);
   state_.waiting_bytes -= bytes;
   state_.recent_s = recent_.shortest_s();
+  state_.recent_slot_s = recent_.slot_s();
   if (!writes) return;
   state_.files = files_->files();
   state_.written_bytes = files_->size();

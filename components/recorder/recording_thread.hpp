@@ -54,7 +54,8 @@ class RecordingThread {
     std::vector<std::filesystem::path> snapshots;  ///< written so far
     std::uint64_t written_bytes = 0;
     std::uint64_t waiting_bytes = 0;
-    double recent_s = 0.0;  ///< how far back all topics reach
+    double recent_s = 0.0;       ///< how far back all topics reach
+    double recent_slot_s = 0.0;  ///< in which one message of the largest topics is kept; 0: all
   };
   State state() const;
 

@@ -59,8 +59,12 @@ std::string StatusTable(const RecorderStatus& status) {
   }
   text += StatusLine(status) + "\n";
   if (status.recent_s > 0.0) {
-    text += fmt::format("in memory for a snapshot: the last {:.1f} s of every topic\n",
-                        status.recent_s);
+    text += fmt::format("in memory for a snapshot: the last {:.1f} s of every topic{}\n",
+                        status.recent_s,
+                        status.recent_slot_s > 0.0
+                            ? fmt::format(", of the largest one message in {} s but the last 1 s",
+                                          status.recent_slot_s)
+                            : "");
   }
   return text;
 }

@@ -29,7 +29,8 @@ struct RecorderStatus {
   std::uint64_t written_bytes = 0;
   std::uint64_t waiting_bytes = 0;
   bool ended = false;
-  double recent_s = 0.0;  ///< in memory, of the topic that reaches back least
+  double recent_s = 0.0;       ///< in memory, of the topic that reaches back least
+  double recent_slot_s = 0.0;  ///< in which one message of the largest topics is kept; 0: all
 };
 
 /// Many lines, one for each topic.

@@ -102,6 +102,7 @@ TopicDescription Describe(const dds::Publication& publication) {
   topic.topic = TopicNameOf(publication.dds_topic);
   topic.type = TypeNameOf(publication.dds_type);
   topic.qos = QosYaml(publication);
+  topic.has_key = publication.has_key;
   topic.latched = publication.durability == dds::Durability::kTransientLocal;
   if (std::optional<std::string> text = FindRos2msg(topic.type)) {
     topic.schema_encoding = "ros2msg";

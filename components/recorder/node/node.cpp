@@ -178,6 +178,7 @@ RecorderStatus RecorderNode::Totals() const {
   status.written_bytes = state.written_bytes;
   status.waiting_bytes = state.waiting_bytes;
   status.recent_s = config_.recent_s > 0.0 ? state.recent_s : 0.0;
+  status.recent_slot_s = state.recent_slot_s;
   if (!state.files.empty()) status.file = state.files.back().string();
   return status;
 }

@@ -13,6 +13,7 @@ std::string StatusJson(const RecorderStatus& status) {
                                  {"written_bytes", status.written_bytes},
                                  {"waiting_bytes", status.waiting_bytes},
                                  {"recent_s", status.recent_s},
+                                 {"recent_slot_s", status.recent_slot_s},
                                  {"ended", status.ended},
                                  {"topics", nlohmann::ordered_json::array()}};
   for (const TopicRow& row : status.topics) {
