@@ -29,8 +29,10 @@ std::string WhyNot(const Channel& channel, const Schema& schema) {
   return schema.name.empty() ? "the recording does not name its type" : "";
 }
 
-/// Whether the type of an IDL has a key: "@key" in its last struct, which is the outermost.
-bool HasKey(const Schema& schema) {
+/// Whether the type has a key: as the recorder says, or "@key" in the last struct of its IDL, which
+/// is the outermost.
+bool HasKey(const Channel& channel, const Schema& schema) {
+  if (channel.metadata.contains("has_key")) return channel.metadata.at("has_key") == "true";
   if (schema.encoding != "omgidl") return false;
   const std::size_t last = schema.data.rfind("struct ");
   return last != schema.data.npos && schema.data.find("@key", last) != schema.data.npos;
@@ -124,7 +126,7 @@ std::optional<std::size_t> RecordingSource::TopicOf(const recording::Reader& rea
     topic.name = name;
     topic.type = schema.name;
     topic.qos = qos;
-    topic.has_key = HasKey(schema);
+    topic.has_key = HasKey(channel, schema);
     topic.has_header = HasHeader(schema);
     known = topics_.insert(topics_.end(), std::move(topic));
   } else if (qos) {

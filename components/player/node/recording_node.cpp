@@ -75,7 +75,11 @@ RecordingNode::RecordingNode(const dds::WithNodeSettings<Config>& config, Record
   if (plan_.step) answers_.emplace(participant_, loop_);
   if (config.publish_clock) {
     clock_writer_.emplace(participant_.CreateWriter(dds::kClockTopic));
-    if (!plan_.step) loop_.Every(kClockPeriod, [this] { PublishClock(); });
+    if (!plan_.step) {
+      loop_.Every(kClockPeriod, [this] {
+        if (is_playing_) PublishClock();
+      });
+    }
   }
   if (plan_.paused) clock_.Pause();
   position_ns_ = Begin_ns();
@@ -194,6 +198,7 @@ void RecordingNode::MoveTo(std::int64_t time_ns) {
 
 void RecordingNode::PlayOnce() {
   MoveTo(Begin_ns());
+  is_playing_ = true;
   const std::uint32_t known_estimators = answers_ ? answers_->estimators_ever() : 0;
   const PlayedMessage* message = source_.Next();
   while (message != nullptr && message->time_ns <= End_ns()) {

@@ -26,17 +26,17 @@ namespace palpate::player {
 
 /// How an MCAP recording is played.
 struct RecordingPlan {
-  double rate = 1.0;            ///< > 0; infinity: as fast as possible
-  bool step = false;            ///< the next frame when /forces answered the last one
-  bool loop = false;            ///< begin again at the end
-  bool paused = false;          ///< at the start
-  double start_s = 0.0;         ///< from the beginning of the recording
-  std::optional<double> end_s;  ///< from there, too; nullopt: to its end
-  std::string step_topic;       ///< whose messages are steps; empty: see Run()
-  int step_count = 1;           ///< of its messages, for one request
-  bool beside_writers = false;  ///< mix with topics that live writers publish
+  double rate = 1.0;                 ///< > 0; infinity: as fast as possible
+  bool step = false;                 ///< the next frame when /forces answered the last one
+  bool loop = false;                 ///< begin again at the end
+  bool paused = false;               ///< at the start
+  double start_s = 0.0;              ///< from the beginning of the recording
+  std::optional<double> end_s = {};  ///< from there, too; nullopt: to its end
+  std::string step_topic = {};       ///< whose messages are steps; empty: see Run()
+  int step_count = 1;                ///< of its messages, for one request
+  bool beside_writers = false;       ///< mix with topics that live writers publish
   /// Is given the state once a second and at the end; may be empty.
-  std::function<void(const PlaybackState&)> show;
+  std::function<void(const PlaybackState&)> show = {};
 };
 
 enum class Request { kPauseOrResume, kStep, kForward, kBack, kFaster, kSlower };
@@ -92,6 +92,7 @@ class RecordingNode {
   std::optional<dds::Writer<idl::rosgraph_msgs::Clock>> clock_writer_;
   PlaybackClock clock_;
   std::optional<std::size_t> step_topic_;
+  bool is_playing_ = false;
   int steps_left_ = 0;  ///< messages to be sent while time stands
   std::int64_t position_ns_ = 0;
   dds::WaitSet::Clock::time_point next_dispatch_;
