@@ -123,4 +123,13 @@ bool Unpack(std::string_view mcap_name, std::string_view packed, std::uint64_t s
   return false;
 }
 
+bool UnpackZstdFrame(std::string_view packed, std::string* bytes, std::string* cause) {
+  const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR) {
+    *cause = "a zstd frame does not tell its size";
+    return false;
+  }
+  return Unpack("zstd", packed, size, bytes, cause);
+}
+
 }  // namespace palpate::recording

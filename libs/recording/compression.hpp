@@ -39,4 +39,8 @@ class Compressor {
 [[nodiscard]] bool Unpack(std::string_view mcap_name, std::string_view packed, std::uint64_t size,
                           std::string* bytes, std::string* cause);
 
+/// Unpacks one zstd frame that tells its size. False, with the cause, where it does not or is
+/// damaged.
+[[nodiscard]] bool UnpackZstdFrame(std::string_view packed, std::string* bytes, std::string* cause);
+
 }  // namespace palpate::recording

@@ -140,13 +140,13 @@ std::string Encode(const Image& image, int level) {
   return Encode(&image_rows, level);
 }
 
-/// Reads one file; the destructor gives libpng's memory back.
+/// Reads one PNG; the destructor gives libpng's memory back.
 class Decoder {
  public:
-  explicit Decoder(const std::filesystem::path& file)
-      : file_{file.string()}, bytes_(ReadFile(file)), rest_(bytes_) {
-    const auto* head = reinterpret_cast<png_const_bytep>(bytes_.data());
-    if (bytes_.size() < 8 || png_sig_cmp(head, 0, 8) != 0) Refuse("is no PNG image");
+  /// `png` must outlive this.
+  Decoder(std::string_view png, const std::string& name) : file_{name}, rest_(png) {
+    const auto* head = reinterpret_cast<png_const_bytep>(png.data());
+    if (png.size() < 8 || png_sig_cmp(head, 0, 8) != 0) Refuse("is no PNG image");
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error_, CollectError, IgnoreWarning);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) {
@@ -185,8 +185,7 @@ class Decoder {
   [[noreturn]] void RefuseDamaged() const { Refuse("is a damaged PNG image: " + error_); }
 
   SourceLocation file_;
-  std::string bytes_;
-  std::string_view rest_;  // of the bytes, not yet read
+  std::string_view rest_;  // not yet read
   std::string error_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
@@ -206,7 +205,15 @@ void WriteColorPng(const std::filesystem::path& file, const ColorImage& image, i
 }
 
 DepthImage ReadDepthPng(const std::filesystem::path& file) {
-  Decoder decoder(file);
+  return DecodeDepthPng(ReadFile(file), file.string());
+}
+
+ColorImage ReadColorPng(const std::filesystem::path& file) {
+  return DecodeColorPng(ReadFile(file), file.string());
+}
+
+DepthImage DecodeDepthPng(std::string_view png, const std::string& name) {
+  Decoder decoder(png, name);
   const Rows& header = decoder.Header();
   if (header.color_type != PNG_COLOR_TYPE_GRAY || header.bit_depth != 16) {
     decoder.Refuse("a depth image is 16-bit grey, this one has " +
@@ -216,8 +223,8 @@ DepthImage ReadDepthPng(const std::filesystem::path& file) {
   return decoder.Pixels<DepthImage>();
 }
 
-ColorImage ReadColorPng(const std::filesystem::path& file) {
-  Decoder decoder(file);
+ColorImage DecodeColorPng(std::string_view png, const std::string& name) {
+  Decoder decoder(png, name);
   if (decoder.Header().bit_depth == 16) {
     decoder.Refuse("a colour image has 8 bits a channel, this one has 16");
   }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "libs/rgbd/image.hpp"
 
@@ -21,5 +22,9 @@ std::string EncodeColorPng(const ColorImage& image, int level);
 
 DepthImage ReadDepthPng(const std::filesystem::path& file);
 ColorImage ReadColorPng(const std::filesystem::path& file);  ///< grey and palette become RGB
+
+/// The same of a PNG in memory; `name` takes the place of the file in messages.
+DepthImage DecodeDepthPng(std::string_view png, const std::string& name);
+ColorImage DecodeColorPng(std::string_view png, const std::string& name);
 
 }  // namespace palpate::rgbd

@@ -62,7 +62,10 @@ THIRD_PARTY = [
     (re.compile(r"tinyxml2"), {"fem"}, "tinyxml2 only in libs/fem"),
     (re.compile(r"zstd|lz4|libdeflate"), {"recording"},
      "zstd, lz4 and libdeflate only in libs/recording"),
+    (re.compile(r"sqlite3\.h"), {"recording"},
+     "SQLite only in libs/recording: use RecordedMessages"),
     (re.compile(r"png\.h"), {"rgbd"}, "libpng only in libs/rgbd: use rgbd/png.hpp"),
+    (re.compile(r"jpeglib\.h"), {"rgbd"}, "libjpeg only in libs/rgbd: use rgbd/jpeg.hpp"),
 ]
 # Third-party headers that stay behind one component.
 OF_COMPONENTS = [
