@@ -19,9 +19,11 @@
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/surface_images.hpp"
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/images/perception_settings.hpp"
 #include "components/palpate/import/import_options.hpp"
+#include "components/palpate/recordings/data_folder.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/version.hpp"
@@ -60,6 +62,7 @@ std::string CommandOf(const DiagnoseOptions& options) {
   std::string command =
       fmt::format("palpate diagnose {} --data {} --out {}", options.robot.string(),
                   options.data.string(), options.out.string());
+  for (const std::string& rule : options.remap) command += " --remap " + rule;
   for (const std::string& id : options.exclude) command += " --exclude " + id;
   if (options.from != "all") command += " --from " + options.from;
   return command;
@@ -89,8 +92,8 @@ std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experi
 }
 
 /// The experiment with the data that --from chooses.
-experiment::Experiment ReadData(const DiagnoseOptions& options) {
-  experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
+experiment::Experiment ReadData(const fs::path& folder, const DiagnoseOptions& options) {
+  experiment::Experiment experiment = experiment::ReadExperiment(folder, app::LoadYaml);
   for (const experiment::Recording& recording : experiment.recordings) RequireLoads(recording);
   if (options.from != "depth") return experiment;
   for (experiment::Recording& recording : experiment.recordings) recording.markers.reset();
@@ -108,7 +111,7 @@ perception::Config ImageSettings(const DiagnoseOptions& options,
 }
 
 /// Data that cannot be used are a verdict; a wrong robot file or option is an error.
-diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
+diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions& options,
                                   const robot::RobotDescription& robot,
                                   const app::StopSignal& stop) {
   const auto begin = std::chrono::steady_clock::now();
@@ -117,7 +120,7 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                StepLine(done, of, what, SecondsSince(begin), 60.0 * options.most_minutes));
   };
   try {
-    const experiment::Experiment experiment = ReadData(options);
+    const experiment::Experiment experiment = ReadData(folder, options);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
     PrintWarnings(body);
     const fem::PointLocator places(body.mesh);
@@ -218,12 +221,16 @@ int Diagnose(const DiagnoseOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
+  std::optional<EndOnSignal> end_on_signal;
+  end_on_signal.emplace("palpate diagnose", "nothing was written");
+  const DataFolder data(options.data, options.remap);
+  end_on_signal.reset();
   const app::StopSignal stop([] {
     fmt::print(stderr,
                "palpate diagnose: interrupted: the search ends, and what it found is written; a "
                "second Ctrl-C ends at once, with nothing written\n");
   });
-  diagnosis::Diagnosis diagnosis = DiagnoseData(options, robot, stop);
+  diagnosis::Diagnosis diagnosis = DiagnoseData(data.path(), options, robot, stop);
   diagnosis::DiagnosisResult& result = diagnosis.result;
   result.robot = robot.name;
   result.data = options.data.string();
@@ -250,8 +257,10 @@ app::Verb DiagnoseVerb() {
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<DiagnoseOptions>();
             DeclareRobot(arguments, &options->robot);
-            arguments.Option("--data FOLDER", &options->data, "Experiment folder",
+            arguments.Option("--data FOLDER", &options->data,
+                             "Experiment folder, or MCAP or .db3 file or folder of them",
                              app::Need::kRequired);
+            DeclareRemap(arguments, &options->remap);
             arguments.Option("--out FOLDER", &options->out,
                              "Folder of verdict.json, report.html and robot.extended.yaml",
                              app::Need::kRequired);

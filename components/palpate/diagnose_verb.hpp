@@ -13,7 +13,8 @@ namespace palpate::command {
 
 struct DiagnoseOptions {
   std::filesystem::path robot;
-  std::filesystem::path data;          ///< experiment folder
+  std::filesystem::path data;          ///< experiment folder, or recorded messages
+  std::vector<std::string> remap;      ///< FROM:=TO, of recorded messages
   std::filesystem::path out;           ///< folder, made where it is not there
   std::vector<std::string> exclude;    ///< ids of causes, each element one or more ("a,b")
   std::string explain;                 ///< id of a cause; empty: none

@@ -22,6 +22,7 @@
 #include "libs/experiment/experiment.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_report.hpp"
+#include "libs/recording/recorded_messages.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -161,7 +162,7 @@ Findings DescribeExperiment(const std::filesystem::path& target) {
 
 Findings Describe(const InfoOptions& options) {
   const std::filesystem::path& target = options.target;
-  const auto files = McapFilesOf(target);
+  const auto files = recording::MessageFilesOf(target);
   const bool is_folder = std::filesystem::is_directory(target);
   if (!options.png.empty() && (!files.empty() || is_folder || IsMesh(target))) {
     throw InputError("--png draws a robot; " + target.string() + " is " +
@@ -187,13 +188,13 @@ int Info(const InfoOptions& options) {
 }
 
 app::Verb InfoVerb() {
-  return {"info", "Summarise and check a robot file, mesh, data folder or MCAP file",
+  return {"info", "Summarise and check a robot file, mesh, data folder or recording of topics",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<InfoOptions>();
             arguments.Positional(
                 "TARGET", &options->target,
                 "Robot file, name of a robot in config/robots, mesh (.vtu, .vtk, "
-                ".msh), experiment or recording folder, or MCAP file or folder of them");
+                ".msh), experiment or recording folder, or MCAP or .db3 file or folder of them");
             arguments.Suggest("TARGET", KnownRobots());
             arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"},
                              "Length unit of a mesh file; robot files name their own");

@@ -17,6 +17,7 @@
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/recordings/data_folder.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -78,8 +79,9 @@ bool HasMarkers(const experiment::Experiment& experiment) {
       [](const experiment::Recording& recording) { return recording.markers.has_value(); });
 }
 
-robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* model) {
-  const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
+robot::CalibrationFile Find(const std::filesystem::path& folder, const CalibrateOptions& options,
+                            robot::RobotModel* model) {
+  const auto experiment = experiment::ReadExperiment(folder, app::LoadYaml);
   const std::vector<int> materials = MaterialsOf(PartsOf(options, model->body()), model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
   if (options.fit_depth_bias && options.no_depth_bias) {
@@ -206,7 +208,12 @@ int Calibrate(const CalibrateOptions& options) {
       LoadRobot(options.robot, options.solver, {}, kSigmasOfRoom * options.cable_eyelet_sigma_m);
   std::optional<EndOnSignal> end_on_signal;
   end_on_signal.emplace("palpate calibrate", "no calibration was written");
-  const robot::CalibrationFile file = Find(options, model.get());
+  const DataFolder data(options.data, options.remap);
+  robot::CalibrationFile file;
+  data.Run([&](const std::filesystem::path& folder) {
+    file = Find(folder, options, model.get());
+    return app::kExitDone;
+  });
   end_on_signal.reset();
   robot::WriteCalibrationFile(file, options.out);
   if (options.json) {
@@ -225,8 +232,10 @@ app::Verb CalibrateVerb() {
       [](app::Arguments& arguments) -> app::Verb::Action {
         const auto options = std::make_shared<CalibrateOptions>();
         DeclareRobot(arguments, &options->robot);
-        arguments.Option("--data FOLDER", &options->data, "Experiment or recording folder",
+        arguments.Option("--data FOLDER", &options->data,
+                         "Experiment or recording folder, or MCAP or .db3 file or folder of them",
                          app::Need::kRequired);
+        DeclareRemap(arguments, &options->remap);
         arguments.Option("--out", &options->out, "Calibration file to write", app::Need::kRequired);
         DeclareWhat(arguments, options.get());
         DeclareSolverOptions(arguments, &options->solver);

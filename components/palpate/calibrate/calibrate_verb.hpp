@@ -15,7 +15,8 @@ namespace palpate::command {
 struct CalibrateOptions {
   std::filesystem::path robot;
   std::string what = "auto";           ///< material, camera, joint (both); auto: what the data lack
-  std::filesystem::path data;          ///< experiment or recording folder
+  std::filesystem::path data;          ///< experiment or recording folder, or recorded messages
+  std::vector<std::string> remap;      ///< FROM:=TO, of recorded messages
   std::string from;                    ///< markers, images; empty: what the recordings have
   std::string camera_pose;             ///< start of the fit to images; empty: the experiment's
   std::filesystem::path earlier;       ///< an earlier calibration file; empty: none

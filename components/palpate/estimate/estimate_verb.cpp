@@ -9,6 +9,7 @@
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/estimate/estimate_run.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/recordings/data_folder.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -38,11 +39,8 @@ void CheckOptions(const EstimateOptions& options) {
   }
 }
 
-}  // namespace
-
-int Estimate(const EstimateOptions& options) {
-  CheckOptions(options);
-  experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
+int EstimateInFolder(const std::filesystem::path& folder, const EstimateOptions& options) {
+  experiment::Experiment experiment = experiment::ReadExperiment(folder, app::LoadYaml);
   const EstimateSettings settings =
       ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts,
                            options.bias_frames == "first");
@@ -62,14 +60,25 @@ int Estimate(const EstimateOptions& options) {
   return run.Finish();
 }
 
+}  // namespace
+
+int Estimate(const EstimateOptions& options) {
+  CheckOptions(options);
+  const DataFolder data(options.data, options.remap);
+  return data.Run(
+      [&](const std::filesystem::path& folder) { return EstimateInFolder(folder, options); });
+}
+
 app::Verb EstimateVerb() {
   return {
       "estimate", "Estimate contact forces from recorded images or markers",
       [](app::Arguments& arguments) -> app::Verb::Action {
         const auto options = std::make_shared<EstimateOptions>();
         DeclareRobot(arguments, &options->robot);
-        arguments.Option("--data FOLDER", &options->data, "Experiment or recording folder",
+        arguments.Option("--data FOLDER", &options->data,
+                         "Experiment or recording folder, or MCAP or .db3 file or folder of them",
                          app::Need::kRequired);
+        DeclareRemap(arguments, &options->remap);
         DeclareOutputs(arguments, options.get());
         arguments.Option("--calibration", &options->calibration,
                          "Calibration file of palpate calibrate; without it the robot file's "

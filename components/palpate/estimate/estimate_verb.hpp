@@ -14,7 +14,8 @@ namespace palpate::command {
 struct EstimateOptions {
   std::filesystem::path robot;
   std::filesystem::path calibration;    ///< empty: the moduli of the robot file, with a warning
-  std::filesystem::path data;           ///< experiment or recording folder
+  std::filesystem::path data;           ///< experiment or recording folder, or recorded messages
+  std::vector<std::string> remap;       ///< FROM:=TO, of recorded messages
   std::vector<std::string> recordings;  ///< names; empty: all that can be estimated
   std::string from;  ///< "markers" | "shape"; empty: shape where there are images
   /// Frames from which the depth bias is estimated: "recordings" (FindBiasFrames), "first" (the

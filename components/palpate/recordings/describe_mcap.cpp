@@ -12,7 +12,7 @@
 
 #include "libs/core/seconds.hpp"
 #include "libs/core/utc_text.hpp"
-#include "libs/recording/reader.hpp"
+#include "libs/recording/recorded_messages.hpp"
 
 namespace palpate::command {
 
@@ -27,24 +27,22 @@ struct Topic {
   bool has_definition = false;
 };
 
-/// All files of a recording, added up.
+/// What the files of one run hold.
 struct Totals {
   std::vector<std::string> files;
+  std::string storage_id;
   std::uint64_t size_bytes = 0;
-  std::uint64_t messages = 0;
-  std::int64_t start_ns = 0;
-  std::int64_t end_ns = 0;
+  recording::Statistics statistics;
   std::set<std::string> profiles;
   std::map<std::pair<std::string, std::string>, Topic> topics;  ///< by name and type
   std::map<std::string, std::uint64_t> attachments;             ///< name, bytes
   std::vector<std::string> problems;
 };
 
-void AddChannels(const recording::Reader& reader, Totals* totals) {
-  const recording::Contents& contents = reader.contents();
-  const auto& counts = contents.statistics.channel_message_counts;
-  for (const auto& [id, channel] : contents.channels) {
-    const recording::Schema& schema = reader.SchemaOf(channel);
+void AddChannels(const recording::RecordedMessages& recorded, Totals* totals) {
+  const auto& counts = recorded.contents().statistics.channel_message_counts;
+  for (const auto& [id, channel] : recorded.contents().channels) {
+    const recording::Schema& schema = recorded.SchemaOf(channel);
     Topic& topic = totals->topics[{channel.topic, schema.name}];
     const auto count = counts.find(id);
     topic.count += count == counts.end() ? 0 : count->second;
@@ -53,31 +51,20 @@ void AddChannels(const recording::Reader& reader, Totals* totals) {
   }
 }
 
-void AddFile(const fs::path& file, Totals* totals) {
-  const recording::Reader reader(file);
-  const recording::Contents& contents = reader.contents();
-  const recording::Statistics& statistics = contents.statistics;
-  totals->files.push_back(file.string());
-  totals->size_bytes += reader.size();
+void AddFile(const recording::MessageFile& file, Totals* totals) {
+  const recording::Contents& contents = file.contents();
+  totals->files.push_back(file.path().string());
+  totals->size_bytes += file.size();
   totals->profiles.insert(contents.header.profile);
-  if (statistics.message_count > 0) {
-    const bool first = totals->messages == 0;
-    totals->start_ns =
-        first ? statistics.start_time_ns : std::min(totals->start_ns, statistics.start_time_ns);
-    totals->end_ns =
-        first ? statistics.end_time_ns : std::max(totals->end_ns, statistics.end_time_ns);
-  }
-  totals->messages += statistics.message_count;
-  AddChannels(reader, totals);
   for (const recording::AttachmentIndex& index : contents.attachments) {
     totals->attachments[index.name] = index.data_size;
   }
   for (const std::string& problem : contents.problems) {
-    totals->problems.push_back(file.string() + ": " + problem);
+    totals->problems.push_back(file.path().string() + ": " + problem);
   }
   if (!contents.indexed) {
-    totals->problems.push_back(file.string() + ": has no sound index; `palpate repair " +
-                               file.string() + "` restores it");
+    totals->problems.push_back(file.path().string() + ": has no sound index; `palpate repair " +
+                               file.path().string() + "` restores it");
   }
 }
 
@@ -104,11 +91,12 @@ std::string ToText(const Totals& totals) {
   line("Files:", totals.files.front());
   for (std::size_t i = 1; i < totals.files.size(); ++i) line("", totals.files[i]);
   line("Bag size:", BagSize(totals.size_bytes));
-  line("Storage id:", "mcap");
-  line("Duration:", fmt::format("{:.9f}s", NsToSeconds(totals.end_ns - totals.start_ns)));
-  line("Start:", TimeText(totals.start_ns));
-  line("End:", TimeText(totals.end_ns));
-  line("Messages:", std::to_string(totals.messages));
+  line("Storage id:", totals.storage_id);
+  line("Duration:", fmt::format("{:.9f}s", NsToSeconds(totals.statistics.end_time_ns -
+                                                       totals.statistics.start_time_ns)));
+  line("Start:", TimeText(totals.statistics.start_time_ns));
+  line("End:", TimeText(totals.statistics.end_time_ns));
+  line("Messages:", std::to_string(totals.statistics.message_count));
   const char* heading = "Topic information:";
   for (const auto& [name, topic] : totals.topics) {
     line(heading, fmt::format("Topic: {} | Type: {} | Count: {} | Serialization Format: {}{}",
@@ -126,17 +114,18 @@ std::string ToText(const Totals& totals) {
 }
 
 Json ToJson(const Totals& totals) {
-  Json json = {{"files", totals.files},
-               {"bag_size_bytes", totals.size_bytes},
-               {"storage_id", "mcap"},
-               {"profiles", totals.profiles},
-               {"duration_s", NsToSeconds(totals.end_ns - totals.start_ns)},
-               {"start_ns", totals.start_ns},
-               {"end_ns", totals.end_ns},
-               {"messages", totals.messages},
-               {"topics", Json::array()},
-               {"attachments", Json::array()},
-               {"problems", totals.problems}};
+  Json json = {
+      {"files", totals.files},
+      {"bag_size_bytes", totals.size_bytes},
+      {"storage_id", totals.storage_id},
+      {"profiles", totals.profiles},
+      {"duration_s", NsToSeconds(totals.statistics.end_time_ns - totals.statistics.start_time_ns)},
+      {"start_ns", totals.statistics.start_time_ns},
+      {"end_ns", totals.statistics.end_time_ns},
+      {"messages", totals.statistics.message_count},
+      {"topics", Json::array()},
+      {"attachments", Json::array()},
+      {"problems", totals.problems}};
   for (const auto& [name, topic] : totals.topics) {
     json["topics"].push_back({{"topic", name.first},
                               {"type", name.second},
@@ -153,8 +142,12 @@ Json ToJson(const Totals& totals) {
 }  // namespace
 
 McapDescription DescribeMcap(const std::vector<fs::path>& files) {
+  const recording::RecordedMessages recorded(files);
   Totals totals;
-  for (const fs::path& file : files) AddFile(file, &totals);
+  totals.storage_id = recorded.storage_id();
+  totals.statistics = recorded.contents().statistics;
+  for (const auto& file : recorded.files()) AddFile(*file, &totals);
+  AddChannels(recorded, &totals);
   return {ToJson(totals), ToText(totals)};
 }
 

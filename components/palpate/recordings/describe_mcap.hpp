@@ -8,11 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libs/recording/mcap_files.hpp"
-
 namespace palpate::command {
-
-using recording::McapFilesOf;
 
 /// What files of one recording hold.
 struct McapDescription {
@@ -20,7 +16,7 @@ struct McapDescription {
   std::string text;  ///< in the words of `ros2 bag info`
 };
 
-/// Throws InputError where a file cannot be read.
+/// Of MCAP files and .db3 files of rosbag2. Throws InputError where one cannot be read.
 McapDescription DescribeMcap(const std::vector<std::filesystem::path>& files);
 
 }  // namespace palpate::command

@@ -53,14 +53,14 @@ std::optional<fem::TetMesh> ReadMesh(std::string_view cdr, const MessageType& ty
 
 class MeshExport : public TopicExport {
  public:
-  MeshExport(MessageType type, std::filesystem::path folder, const recording::Reader& reader,
-             std::int64_t start_ns)
+  MeshExport(MessageType type, std::filesystem::path folder,
+             const recording::RecordedMessages& reader, std::int64_t start_ns)
       : type_(std::move(type)), folder_(std::move(folder)), start_ns_(start_ns) {
     recording::MessageFilter filter;
     filter.wanted = [&](const recording::Channel& channel) {
       return reader.SchemaOf(channel).name == kMeshType;
     };
-    recording::MessageStream stream = reader.Messages(filter);
+    recording::RecordedStream stream = reader.Messages(filter);
     while (const recording::Message* message = stream.Next()) {
       const auto& schema = reader.SchemaOf(reader.contents().channels.at(message->channel_id));
       const MessageType mesh_type{kMeshType, recording::ParseRos2msg(kMeshType, schema.data)};
@@ -111,7 +111,7 @@ class MeshExport : public TopicExport {
 }  // namespace
 
 std::unique_ptr<TopicExport> MakeMeshExport(MessageType type, std::filesystem::path folder,
-                                            const recording::Reader& reader,
+                                            const recording::RecordedMessages& reader,
                                             std::int64_t start_ns) {
   return std::make_unique<MeshExport>(std::move(type), std::move(folder), reader, start_ns);
 }

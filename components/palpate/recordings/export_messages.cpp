@@ -8,10 +8,10 @@
 #include <memory>
 #include <set>
 
+#include "components/palpate/recordings/ros_image.hpp"
 #include "components/palpate/recordings/topic_export.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/names.hpp"
-#include "libs/recording/ros2msg/flatten.hpp"
 
 namespace palpate::command {
 
@@ -24,28 +24,6 @@ std::string FileNameOf(const std::string& topic) {
   return name;
 }
 
-/// "sensor_msgs::msg::dds_::Image_", as tools that do not know ROS name it -> sensor_msgs/msg/Image
-std::string RosTypeOf(std::string type) {
-  const std::size_t middle = type.find("::msg::dds_::");
-  if (middle == type.npos || !type.ends_with('_')) return type;
-  type.replace(middle, 13, "/msg/");
-  type.pop_back();
-  return type;
-}
-
-/// The recording's own definition, else the built-in one; nullptr where there is none.
-std::unique_ptr<MessageType> TypeOf(const recording::Schema& schema) {
-  auto type = std::make_unique<MessageType>();
-  type->name = RosTypeOf(schema.name);
-  if (schema.encoding == "ros2msg" && !schema.data.empty()) {
-    type->definitions = recording::ParseRos2msg(type->name, schema.data);
-    return type;
-  }
-  type->definitions = recording::BuiltInDefinitions();
-  const bool known = type->definitions.contains(recording::ShortTypeName(type->name));
-  return known ? std::move(type) : nullptr;
-}
-
 struct Channel {
   ExportedTopic told;
   std::unique_ptr<TopicExport> files;  ///< nullptr: its type is not known
@@ -53,7 +31,7 @@ struct Channel {
 
 class Exporter {
  public:
-  Exporter(const recording::Reader& reader, const ExportOptions& options)
+  Exporter(const recording::RecordedMessages& reader, const ExportOptions& options)
       : reader_(reader), options_(options) {
     std::set<std::string> known;
     for (const auto& [id, channel] : reader.contents().channels) known.insert(channel.topic);
@@ -70,7 +48,7 @@ class Exporter {
     }
     recording::MessageFilter filter;
     filter.wanted = [this](const recording::Channel& channel) { return IsWanted(channel); };
-    recording::MessageStream stream = reader_.Messages(filter);
+    recording::RecordedStream stream = reader_.Messages(filter);
     while (const recording::Message* message = stream.Next()) Take(*message);
     std::vector<ExportedTopic> told;
     for (auto& [id, channel] : channels_) {
@@ -98,7 +76,7 @@ class Exporter {
     if (!names_.insert(name).second) name += "_" + std::to_string(channel.id);
     const std::int64_t start_ns = reader_.contents().statistics.start_time_ns;
     opened.told.target = options_.out / name;
-    if (type->name == "sensor_msgs/msg/Image") {
+    if (type->name == kImageType || type->name == kCompressedImageType) {
       opened.files = MakeImageExport(*type, opened.told.target);
     } else if (type->name == "sensor_msgs/msg/PointCloud2") {
       opened.files = MakeCloudExport(*type, opened.told.target, options_.clouds);
@@ -117,7 +95,7 @@ class Exporter {
     if (!reason.empty()) channel.told.reason = reason;
   }
 
-  const recording::Reader& reader_;
+  const recording::RecordedMessages& reader_;
   const ExportOptions& options_;
   std::map<std::uint16_t, Channel> channels_;
   std::set<std::string> names_;
@@ -125,15 +103,7 @@ class Exporter {
 
 }  // namespace
 
-std::int64_t StampOf(const recording::Message& message, const MessageType& type) {
-  recording::CdrReader reader = AtField(message.data, type.name, "header", type.definitions);
-  const auto seconds = static_cast<std::int32_t>(reader.Bits(4));
-  const auto ns = static_cast<std::int64_t>(reader.Bits(4));
-  if (!reader.ok()) return message.log_time_ns;
-  return seconds * std::int64_t{1'000'000'000} + ns;
-}
-
-std::vector<ExportedTopic> ExportMessages(const recording::Reader& reader,
+std::vector<ExportedTopic> ExportMessages(const recording::RecordedMessages& reader,
                                           const ExportOptions& options) {
   return Exporter(reader, options).Run();
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libs/recording/reader.hpp"
+#include "libs/recording/recorded_messages.hpp"
 
 namespace palpate::command {
 
@@ -32,7 +32,7 @@ struct ExportedTopic {
 /// Writes the messages of a recording as files: images as PNG, clouds as PLY or PCD, mesh states as
 /// VTU and PVD, all other topics as CSV. Throws InputError for a topic that is not there, RunError
 /// where a file cannot be written.
-std::vector<ExportedTopic> ExportMessages(const recording::Reader& reader,
+std::vector<ExportedTopic> ExportMessages(const recording::RecordedMessages& reader,
                                           const ExportOptions& options);
 
 }  // namespace palpate::command

@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "components/palpate/check_output.hpp"
+#include "components/palpate/recordings/data_folder.hpp"
 #include "components/palpate/recordings/export_messages.hpp"
+#include "components/palpate/recordings/make_experiment.hpp"
 #include "libs/app/run_main.hpp"
+#include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -23,6 +26,8 @@ struct ExportCommand {
   std::filesystem::path file;
   ExportOptions options;
   std::string clouds = "ply";
+  std::filesystem::path experiment;  ///< folder to make instead; empty: none
+  std::vector<std::string> remap;
   bool json = false;
 };
 
@@ -45,14 +50,46 @@ void Print(const std::vector<ExportedTopic>& topics, bool json) {
   if (json) fmt::print("{}\n", list.dump(2));
 }
 
-int Export(ExportCommand command) {
-  const std::filesystem::path& out = command.options.out;
+void CheckNewFolder(const std::filesystem::path& out) {
   if (std::filesystem::exists(out) && !std::filesystem::is_empty(out)) {
-    throw InputError({out.string()}, "is not empty; choose another folder with --out");
+    throw InputError({out.string()}, "is not empty; choose another folder");
   }
   CheckOutputFolder(out);
+}
+
+std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& target) {
+  std::vector<std::filesystem::path> files = recording::MessageFilesOf(target);
+  if (!files.empty()) return files;
+  throw InputError({target.string()},
+                   "is neither an MCAP file, a .db3 file of rosbag2, nor a folder of them");
+}
+
+int ExportExperiment(const ExportCommand& command) {
+  CheckNewFolder(command.experiment);
+  FilesOf(command.file);
+  const std::vector<std::string> notes =
+      MakeExperiment(command.file, command.remap, command.experiment, app::LoadYaml);
+  if (command.json) {
+    const nlohmann::ordered_json told = {{"experiment", command.experiment.string()},
+                                         {"notes", notes}};
+    fmt::print("{}\n", told.dump(2));
+    return app::kExitDone;
+  }
+  for (const std::string& note : notes) fmt::print("{}\n", note);
+  fmt::print("written to {}\n", command.experiment.string());
+  return app::kExitDone;
+}
+
+int Export(ExportCommand command) {
+  const std::filesystem::path& out = command.options.out;
+  if (out.empty() == command.experiment.empty()) {
+    throw InputError("give --out FOLDER for files of each topic, or --experiment FOLDER");
+  }
+  if (out.empty()) return ExportExperiment(command);
+  if (!command.remap.empty()) throw InputError("--remap is for --experiment; leave it out");
+  CheckNewFolder(out);
   command.options.clouds = command.clouds == "pcd" ? CloudFormat::kPcd : CloudFormat::kPly;
-  const recording::Reader reader(command.file);
+  const recording::RecordedMessages reader(FilesOf(command.file));
   std::filesystem::create_directories(out);
   Print(ExportMessages(reader, command.options), command.json);
   return app::kExitDone;
@@ -61,12 +98,16 @@ int Export(ExportCommand command) {
 }  // namespace
 
 app::Verb ExportVerb() {
-  return {"export", "Write the messages of an MCAP file as CSV, images, clouds and meshes",
+  return {"export",
+          "Write recorded messages as CSV, images, clouds and meshes, or as an experiment",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto command = std::make_shared<ExportCommand>();
-            arguments.Positional("FILE", &command->file, "MCAP file");
-            arguments.Option("--out FOLDER", &command->options.out, "New or empty folder",
-                             app::Need::kRequired);
+            arguments.Positional("FILE", &command->file, "MCAP or .db3 file, or folder of them");
+            arguments.Option("--out FOLDER", &command->options.out,
+                             "New or empty folder for the files of each topic");
+            arguments.Option("--experiment FOLDER", &command->experiment,
+                             "New or empty folder: make an experiment of the topics instead");
+            DeclareRemap(arguments, &command->remap);
             arguments.Repeated("--topic NAME", &command->options.topics,
                                "Export this topic; without it all");
             arguments.Choice("--clouds FORMAT", &command->clouds, {"ply", "pcd"},

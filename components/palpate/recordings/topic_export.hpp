@@ -10,15 +10,9 @@
 #include <utility>
 
 #include "components/palpate/recordings/export_messages.hpp"
-#include "libs/recording/ros2msg/message_definition.hpp"
+#include "components/palpate/recordings/message_type.hpp"
 
 namespace palpate::command {
-
-/// A message type as one recording defines it.
-struct MessageType {
-  std::string name;  ///< "sensor_msgs/msg/Image"
-  recording::Definitions definitions;
-};
 
 /// Writes the messages of one topic as files.
 class TopicExport {
@@ -33,16 +27,14 @@ class TopicExport {
 /// One CSV: t_s from the beginning of the recording, log_time_ns, then a column for each value.
 std::unique_ptr<TopicExport> MakeCsvExport(MessageType type, std::filesystem::path file,
                                            std::int64_t start_ns);
-/// STAMP.png of images 16UC1, mono16, mono8, rgb8 and bgr8; STAMP.ply or .pcd of clouds.
+/// STAMP.png of 16-bit depth and of colour, packed images too; STAMP.ply or .pcd of clouds.
 std::unique_ptr<TopicExport> MakeImageExport(MessageType type, std::filesystem::path folder);
 std::unique_ptr<TopicExport> MakeCloudExport(MessageType type, std::filesystem::path folder,
                                              CloudFormat format);
 /// STAMP.vtu of mesh states, undeformed points with displacement_m, and body.pvd with their times.
 /// The meshes are those of the recording's Mesh messages.
 std::unique_ptr<TopicExport> MakeMeshExport(MessageType type, std::filesystem::path folder,
-                                            const recording::Reader& reader, std::int64_t start_ns);
-
-/// Stamp of the message's header, else its log time, ns.
-std::int64_t StampOf(const recording::Message& message, const MessageType& type);
+                                            const recording::RecordedMessages& reader,
+                                            std::int64_t start_ns);
 
 }  // namespace palpate::command

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/recordings/data_folder.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -25,7 +26,10 @@ int Demo(const DemoOptions& options) {
   if (!system.data.empty() && system.robot.empty()) {
     throw InputError("--data needs --robot: the robot of these recordings");
   }
-  return SystemDemo(system);
+  const DataFolder data(system.data, system.remap);
+  SystemDemoOptions of_folder = system;
+  of_folder.data = data.path();
+  return data.Run([&](const std::filesystem::path&) { return SystemDemo(of_folder); });
 }
 
 app::Verb DemoVerb() {
@@ -42,9 +46,12 @@ app::Verb DemoVerb() {
             arguments.Option("--scenario", &system.scenario,
                              "Scenario of the virtual robot; without it "
                              "config/scenarios/sensing.yaml");
-            arguments.Option("--data FOLDER", &system.data,
-                             "Experiment folder with depth images to play instead of the virtual "
-                             "robot; with --recording beam the folder that holds silicone_beam");
+            arguments.Option(
+                "--data FOLDER", &system.data,
+                "Experiment folder, or MCAP or .db3 file or folder of them, with depth "
+                "images to play instead of the virtual robot; with --recording beam the folder "
+                "that holds silicone_beam");
+            DeclareRemap(arguments, &system.remap);
             arguments.Option("--calibration", &system.calibration,
                              "Calibration file of palpate calibrate; without it the robot file's "
                              "moduli hold");

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace palpate::command {
 
@@ -12,6 +14,7 @@ struct SystemDemoOptions {
   std::filesystem::path robot;        ///< file or name; empty: four_leg
   std::filesystem::path scenario;     ///< empty: config/scenarios/sensing.yaml
   std::filesystem::path data;         ///< an experiment with images instead of the virtual robot
+  std::vector<std::string> remap;     ///< FROM:=TO, where `data` are recorded messages
   std::filesystem::path calibration;  ///< empty: none
   int seconds = 0;                    ///< duration; 0: 30 s of the virtual robot, all of recordings
 };

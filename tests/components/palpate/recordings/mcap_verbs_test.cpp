@@ -8,6 +8,7 @@
 #include "components/palpate/recordings/describe_mcap.hpp"
 #include "components/palpate/recordings/repair_verb.hpp"
 #include "libs/core/file.hpp"
+#include "libs/recording/recorded_messages.hpp"
 #include "tests/libs/recording/sample_recording.hpp"
 #include "tests/support/measured_data.hpp"
 #include "tests/support/test_folder.hpp"
@@ -27,7 +28,7 @@ using testing::IsEmpty;
 TEST(DescribeMcap, SaysWhatRos2BagInfoSays) {
   const TestFolder folder;
   WriteSamples(folder / "run.mcap", Samples(100), SmallChunks());
-  const McapDescription described = DescribeMcap(McapFilesOf(folder / "run.mcap"));
+  const McapDescription described = DescribeMcap(recording::MessageFilesOf(folder / "run.mcap"));
   EXPECT_THAT(described.text, HasSubstr("Storage id:        mcap\n"
                                         "Duration:          0.990000000s\n"
                                         "Start:             1970-01-01T00:00:01.000Z"));
@@ -47,18 +48,18 @@ TEST(DescribeMcap, FilesOfOneFolderAreOneRecording) {
   WriteSamples(folder / "run_0000.mcap", Samples(100), SmallChunks());
   WriteSamples(folder / "run_0001.mcap", Samples(50), SmallChunks());
   folder.Write("metadata.yaml", "rosbag2_bagfile_information:\n");
-  EXPECT_THAT(McapFilesOf(folder.path()),
+  EXPECT_THAT(recording::MessageFilesOf(folder.path()),
               ElementsAre(folder / "run_0000.mcap", folder / "run_0001.mcap"));
-  EXPECT_EQ(DescribeMcap(McapFilesOf(folder.path())).json["messages"], 150);
+  EXPECT_EQ(DescribeMcap(recording::MessageFilesOf(folder.path())).json["messages"], 150);
 }
 
 TEST(DescribeMcap, OtherTargetsAreNoRecordings) {
   const TestFolder folder;
   WriteSamples(folder / "run.mcap", Samples(10), SmallChunks());
   folder.Write("experiment.yaml", "robot: beam.yaml\n");
-  EXPECT_THAT(McapFilesOf(folder.path()), IsEmpty());
-  EXPECT_THAT(McapFilesOf(folder / "experiment.yaml"), IsEmpty());
-  EXPECT_THAT(McapFilesOf("four_leg"), IsEmpty());
+  EXPECT_THAT(recording::MessageFilesOf(folder.path()), IsEmpty());
+  EXPECT_THAT(recording::MessageFilesOf(folder / "experiment.yaml"), IsEmpty());
+  EXPECT_THAT(recording::MessageFilesOf("four_leg"), IsEmpty());
 }
 
 TEST(DescribeMcap, ACutFileIsDescribedWithTheRemedy) {

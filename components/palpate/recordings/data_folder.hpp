@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libs/app/arguments.hpp"
+
+namespace palpate::command {
+
+/// What --data names: an experiment or recording folder, or recorded messages, which are then made
+/// into an experiment in a folder that ends with this.
+class DataFolder {
+ public:
+  /// Prints on the standard error output what was made of the messages. Throws as MakeExperiment;
+  /// InputError, too, where `remap` is given for a folder.
+  DataFolder(const std::filesystem::path& data, const std::vector<std::string>& remap);
+  ~DataFolder();
+  DataFolder(const DataFolder&) = delete;
+  DataFolder& operator=(const DataFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Runs a verb. The text of an InputError that names a file of the folder names `data` instead.
+  int Run(const std::function<int(const std::filesystem::path&)>& verb) const;
+
+ private:
+  void Remove() const;
+
+  std::filesystem::path data_;
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;  ///< empty: none was made
+};
+
+/// The option --remap of a verb with --data.
+void DeclareRemap(app::Arguments& arguments, std::vector<std::string>* remap);
+
+}  // namespace palpate::command

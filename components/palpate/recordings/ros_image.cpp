@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/recordings/ros_image.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "libs/core/error.hpp"
+#include "libs/rgbd/jpeg.hpp"
+#include "libs/rgbd/png.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+/// Bytes of a pixel, and which of them are red, green and blue.
+struct ColorLayout {
+  std::string_view encoding;
+  std::uint32_t pixel_bytes;
+  std::array<std::size_t, 3> rgb;
+};
+constexpr std::array<ColorLayout, 7> kColorLayouts = {{{"rgb8", 3, {0, 1, 2}},
+                                                       {"bgr8", 3, {2, 1, 0}},
+                                                       {"8UC3", 3, {2, 1, 0}},
+                                                       {"rgba8", 4, {0, 1, 2}},
+                                                       {"bgra8", 4, {2, 1, 0}},
+                                                       {"mono8", 1, {0, 0, 0}},
+                                                       {"8UC1", 1, {0, 0, 0}}}};
+/// In front of the PNG of image_transport's compressedDepth: which format, and two parameters.
+constexpr std::size_t kDepthHeader = 12;
+
+const ColorLayout* LayoutOf(const std::string& encoding) {
+  for (const ColorLayout& layout : kColorLayouts) {
+    if (layout.encoding == encoding) return &layout;
+  }
+  return nullptr;
+}
+
+bool IsDepthEncoding(const std::string& encoding) {
+  return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
+}
+
+std::string CheckSize(const RosImage& image, std::uint32_t pixel_bytes) {
+  if (image.width == 0 || image.height == 0) {
+    return "is empty: " + std::to_string(image.width) + " x " + std::to_string(image.height);
+  }
+  constexpr std::uint32_t kLargest_px = 1u << 16;
+  if (image.width > kLargest_px || image.height > kLargest_px) return "is no whole image";
+  if (image.step < std::uint64_t{pixel_bytes} * image.width) return "its rows are too short";
+  if (image.data.size() < std::uint64_t{image.step} * image.height) return "is no whole image";
+  return {};
+}
+
+template <typename Bits>
+Bits BitsAt(const RosImage& image, std::string_view row, std::uint32_t u) {
+  Bits bits = 0;
+  for (std::size_t i = 0; i < sizeof(Bits); ++i) {
+    const std::size_t place = image.big_endian ? sizeof(Bits) - 1 - i : i;
+    const auto byte = static_cast<std::uint8_t>(row[u * sizeof(Bits) + place]);
+    bits = static_cast<Bits>(bits | static_cast<Bits>(byte) << (8 * i));
+  }
+  return bits;
+}
+
+void CopySteps(const RosImage& image, RosDepth* depth) {
+  depth->steps = rgbd::DepthImage(depth->width_px, depth->height_px);
+  std::uint16_t* to = depth->steps.values.data();
+  for (std::uint32_t v = 0; v < image.height; ++v) {
+    const std::string_view row = image.Row(v);
+    for (std::uint32_t u = 0; u < image.width; ++u) *to++ = BitsAt<std::uint16_t>(image, row, u);
+  }
+}
+
+void CopyMetres(const RosImage& image, RosDepth* depth) {
+  depth->range_m.reserve(std::size_t{image.width} * image.height);
+  for (std::uint32_t v = 0; v < image.height; ++v) {
+    const std::string_view row = image.Row(v);
+    for (std::uint32_t u = 0; u < image.width; ++u) {
+      const float z_m = std::bit_cast<float>(BitsAt<std::uint32_t>(image, row, u));
+      const bool seen = std::isfinite(z_m) && z_m > 0.0f;
+      depth->range_m.push_back(seen ? z_m : std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+}
+
+/// compressed_depth_image_transport packs metres as a / (value - b), with 0 for nothing seen.
+void UnpackMetres(std::string_view header, RosDepth* depth) {
+  float a = 0.0f;
+  float b = 0.0f;
+  std::memcpy(&a, header.data() + 4, sizeof(a));
+  std::memcpy(&b, header.data() + 8, sizeof(b));
+  for (const std::uint16_t value : depth->steps.values) {
+    const float z_m = a / (static_cast<float>(value) - b);
+    const bool seen = value != 0 && std::isfinite(z_m) && z_m > 0.0f;
+    depth->range_m.push_back(seen ? z_m : std::numeric_limits<float>::quiet_NaN());
+  }
+  depth->steps = {};
+}
+
+std::string DecodePacked(const RosImage& image, RosDepth* depth) {
+  const bool with_header = image.format.find("compressedDepth") != std::string::npos;
+  if (image.format.find("rvl") != std::string::npos) {
+    return "is packed as RVL, which is not read; record PNG (parameter " +
+           std::string("compressedDepth.format) or the raw image");
+  }
+  if (with_header && image.data.size() < kDepthHeader) return "is no whole image";
+  const std::string_view png = with_header ? image.data.substr(kDepthHeader) : image.data;
+  try {
+    depth->steps = rgbd::DecodeDepthPng(png, "PNG");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  depth->width_px = depth->steps.width_px;
+  depth->height_px = depth->steps.height_px;
+  if (image.encoding == "32FC1") {
+    if (!with_header) return "32FC1 cannot be packed as PNG without compressedDepth";
+    UnpackMetres(image.data, depth);
+  }
+  return {};
+}
+
+}  // namespace
+
+bool RosImage::IsDepth() const {
+  return IsDepthEncoding(encoding) || format.find("compressedDepth") != std::string::npos;
+}
+
+bool RosImage::IsColor() const {
+  if (IsDepth()) return false;
+  if (compressed() && encoding.empty()) return true;
+  const ColorLayout* layout = LayoutOf(encoding);
+  return layout != nullptr && layout->pixel_bytes > 1;
+}
+
+std::string ReadImage(std::string_view cdr, const MessageType& type, RosImage* image) {
+  *image = {};
+  recording::CdrReader reader = type.At("header", cdr);
+  reader.Bits(4);
+  reader.Bits(4);
+  image->frame_id = reader.String();
+  if (type.name == kCompressedImageType) {
+    image->format = reader.String();
+    image->data = reader.Array(reader.Length(), 1);
+    if (!reader.ok() || image->data.empty()) return "is no whole image";
+    const std::size_t end = image->format.find(';');
+    if (end != std::string::npos) image->encoding = image->format.substr(0, end);
+    if (image->format.empty()) image->format = "unknown";
+    return {};
+  }
+  image->height = reader.Length();
+  image->width = reader.Length();
+  image->encoding = reader.String();
+  image->big_endian = reader.Bits(1) != 0;
+  image->step = reader.Length();
+  image->data = reader.Array(reader.Length(), 1);
+  const bool whole =
+      reader.ok() && image->data.size() >= std::uint64_t{image->step} * image->height;
+  return whole ? "" : "is no whole image";
+}
+
+std::string DecodeRosDepth(const RosImage& image, RosDepth* depth) {
+  *depth = {};
+  if (image.compressed()) return DecodePacked(image, depth);
+  const bool metres = image.encoding == "32FC1";
+  if (std::string cause = CheckSize(image, metres ? 4 : 2); !cause.empty()) return cause;
+  depth->width_px = static_cast<int>(image.width);
+  depth->height_px = static_cast<int>(image.height);
+  metres ? CopyMetres(image, depth) : CopySteps(image, depth);
+  return {};
+}
+
+std::string DecodeRosColor(const RosImage& image, rgbd::ColorImage* color) {
+  if (image.compressed()) {
+    try {
+      const bool jpeg = image.data.starts_with("\xff\xd8");
+      *color =
+          jpeg ? rgbd::DecodeJpeg(image.data, "JPEG") : rgbd::DecodeColorPng(image.data, "PNG");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  const ColorLayout* layout = LayoutOf(image.encoding);
+  if (layout == nullptr) {
+    return "encoding '" + image.encoding + "' is not known (rgb8, bgr8, rgba8, bgra8, mono8)";
+  }
+  if (std::string cause = CheckSize(image, layout->pixel_bytes); !cause.empty()) return cause;
+  *color = rgbd::ColorImage(static_cast<int>(image.width), static_cast<int>(image.height));
+  std::uint8_t* to = color->values.data();
+  for (std::uint32_t v = 0; v < image.height; ++v) {
+    const std::string_view row = image.Row(v);
+    for (std::uint32_t u = 0; u < image.width; ++u) {
+      for (const std::size_t byte : layout->rgb) {
+        *to++ = static_cast<std::uint8_t>(row[u * layout->pixel_bytes + byte]);
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace palpate::command
