@@ -30,7 +30,7 @@ struct Config {
     v("start_time_s", start_time_s, {.min = 0.0, .max = 2e9},
       "Offset of the stamps: stamp = start_time_s + t_s");
     v("wait_for_readers", wait_for_readers,
-      "Start only when every published topic has a reader; of an MCAP recording any topic");
+      "Start only when every published topic has a reader; of a message file any topic");
     v("reader_deadline_s", reader_deadline_s, {.min = 0.0, .min_open = true},
       "Time without a reader after which the player fails, s");
     v("step_deadline_s", step_deadline_s, {.min = 0.0, .min_open = true},
@@ -45,7 +45,7 @@ struct Config {
     v("settle_s", settle_s, {.min = 0.0},
       "Start only when no further reader or writer has appeared for this time, s");
     v("seek_s", seek_s, {.min = 0.0, .min_open = true},
-      "Time by which the arrow keys move in an MCAP recording, s");
+      "Time by which the arrow keys move in a message file, s");
   }
 };
 

@@ -4,7 +4,6 @@
 #include "components/player/recording_source.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <utility>
 
 #include "libs/core/error.hpp"
@@ -61,56 +60,46 @@ std::string PlayedName(const std::string& topic) {
 }
 
 RecordingSource::RecordingSource(const std::vector<std::filesystem::path>& files,
-                                 const recording::TopicChoice& choice) {
-  for (const std::filesystem::path& file : files) AddPart(file, choice);
-  std::sort(parts_.begin(), parts_.end(),
-            [](const Part& a, const Part& b) { return a.start_ns < b.start_ns; });
-  if (parts_.empty() || topics_.empty()) {
-    std::string text = files.empty() ? "no recording" : files.front().string();
-    text += ": nothing to play";
+                                 const recording::TopicChoice& choice)
+    : recorded_(std::make_unique<recording::RecordedMessages>(files)),
+      topic_of_channel_(std::size_t{1} << 16U) {
+  for (const auto& file : recorded_->files()) {
+    for (const std::string& problem : file->contents().problems) {
+      problems_.push_back(file->path().string() + ": " + problem);
+    }
+    if (file->contents().statistics.message_count == 0) continue;
+    const std::int64_t begin_ns = file->contents().statistics.start_time_ns;
+    if (begin_ns > start_ns()) splits_ns_.insert(begin_ns);
+  }
+  for (const auto& [id, channel] : recorded_->contents().channels) Add(channel, choice);
+  if (recorded_->contents().statistics.message_count == 0 || topics_.empty()) {
+    std::string text = files.front().string() + ": nothing to play";
     for (const std::string& problem : problems_) text += "\n  " + problem;
     throw InputError(text);
   }
-  start_ns_ = parts_.front().start_ns;
-  end_ns_ = parts_.front().end_ns;
-  for (const Part& part : parts_) end_ns_ = std::max(end_ns_, part.end_ns);
-  Seek(start_ns_);
+  Seek(start_ns());
 }
 
-void RecordingSource::AddPart(const std::filesystem::path& file,
-                              const recording::TopicChoice& choice) {
-  Part part;
-  part.reader = std::make_unique<recording::Reader>(file);
-  const recording::Contents& contents = part.reader->contents();
-  for (const std::string& problem : contents.problems) {
-    problems_.push_back(file.string() + ": " + problem);
-  }
-  part.topic_of_channel.resize(std::size_t{1} << 16U);
-  for (const auto& [id, channel] : contents.channels) {
-    const auto topic = TopicOf(*part.reader, channel, choice);
-    part.topic_of_channel[id] = topic;
-    if (!topic) continue;
-    const auto& counts = contents.statistics.channel_message_counts;
-    const auto count = counts.find(id);
-    topics_[*topic].messages += count == counts.end() ? 0 : count->second;
-    if (!topics_[*topic].first.empty()) continue;
-    recording::MessageFilter filter;
-    filter.wanted = [&](const Channel& other) { return other.id == channel.id; };
-    recording::MessageStream stream = part.reader->Messages(filter);
-    if (const Message* first = stream.Next()) topics_[*topic].first = first->data.substr(0, 4);
-  }
-  if (contents.statistics.message_count == 0) return;
-  part.start_ns = contents.statistics.start_time_ns;
-  part.end_ns = contents.statistics.end_time_ns;
-  parts_.push_back(std::move(part));
+void RecordingSource::Add(const Channel& channel, const recording::TopicChoice& choice) {
+  const auto index = TopicOf(channel, choice);
+  topic_of_channel_[channel.id] = index;
+  if (!index) return;
+  PlayedTopic& topic = topics_[*index];
+  const auto& counts = recorded_->contents().statistics.channel_message_counts;
+  const auto count = counts.find(channel.id);
+  topic.messages += count == counts.end() ? 0 : count->second;
+  if (!topic.first.empty()) return;
+  recording::MessageFilter filter;
+  filter.wanted = [&](const Channel& other) { return other.id == channel.id; };
+  recording::RecordedStream stream = recorded_->Messages(filter);
+  if (const Message* first = stream.Next()) topic.first = first->data.substr(0, 4);
 }
 
-std::optional<std::size_t> RecordingSource::TopicOf(const recording::Reader& reader,
-                                                    const Channel& channel,
+std::optional<std::size_t> RecordingSource::TopicOf(const Channel& channel,
                                                     const recording::TopicChoice& choice) {
   const std::string name = PlayedName(channel.topic);
   if (recording::IsRosInternal(channel.topic) || !choice.Includes(name)) return std::nullopt;
-  const Schema& schema = reader.SchemaOf(channel);
+  const Schema& schema = recorded_->SchemaOf(channel);
   if (const std::string reason = WhyNot(channel, schema); !reason.empty()) {
     problems_.push_back("channel " + name + " is not played: " + reason);
     return std::nullopt;
@@ -135,107 +124,92 @@ std::optional<std::size_t> RecordingSource::TopicOf(const recording::Reader& rea
   return static_cast<std::size_t>(known - topics_.begin());
 }
 
-recording::MessageFilter RecordingSource::FilterOf(const Part& part) const {
+recording::MessageFilter RecordingSource::FilterOf(
+    const std::function<bool(const PlayedTopic&)>& wanted) const {
+  std::vector<bool> channels(topic_of_channel_.size());
+  for (std::size_t id = 0; id < channels.size(); ++id) {
+    const auto topic = topic_of_channel_[id];
+    channels[id] = topic && (!wanted || wanted(topics_[*topic]));
+  }
   recording::MessageFilter filter;
-  filter.wanted = [&part](const Channel& channel) {
-    return part.topic_of_channel[channel.id].has_value();
+  filter.wanted = [channels = std::move(channels)](const Channel& channel) {
+    return static_cast<bool>(channels[channel.id]);
   };
   return filter;
 }
 
 void RecordingSource::Seek(std::int64_t time_ns) {
-  active_.clear();
-  advance_.reset();
+  recording::MessageFilter filter = FilterOf();
+  filter.start_time_ns = time_ns;
+  stream_.emplace(recorded_->Messages(filter));
   last_latched_.clear();
-  sought_ns_ = time_ns;
-  next_part_ = 0;
-  while (next_part_ < parts_.size() && parts_[next_part_].end_ns < time_ns) ++next_part_;
 }
 
-void RecordingSource::Activate() {
-  const Part& part = parts_[next_part_];
-  recording::MessageFilter filter = FilterOf(part);
-  filter.start_time_ns = sought_ns_;
-  Active active{next_part_, part.reader->Messages(filter), nullptr};
-  ++next_part_;
-  active.head = active.stream->Next();
-  if (active.head != nullptr) active_.push_back(std::move(active));
+PlayedMessage RecordingSource::Played(const Message& message) const {
+  return {topic_of_channel_[message.channel_id].value_or(0), message.log_time_ns, message.data};
 }
 
-/// Where a recording is split, each file begins with the last message of every latched topic.
-bool RecordingSource::IsRepeated(const Active& active, const PlayedMessage& message) {
+/// Where the recorder splits a run, each file begins with the last message of every latched topic.
+bool RecordingSource::IsRepeated(const PlayedMessage& message, LastMessages* last) const {
   if (!topics_[message.topic].is_latched()) return false;
-  std::string& last = last_latched_[message.topic];
-  const bool again =
-      active.part > 0 && message.time_ns <= parts_[active.part].start_ns && message.data == last;
-  last = message.data;
+  std::string& before = (*last)[message.topic];
+  const bool again = splits_ns_.contains(message.time_ns) && message.data == before;
+  before = message.data;
   return again;
 }
 
 const PlayedMessage* RecordingSource::Next() {
-  while (true) {
-    if (advance_) {
-      Active& read = active_[*advance_];
-      read.head = read.stream->Next();
-      if (read.head == nullptr) active_.erase(active_.begin() + static_cast<long>(*advance_));
-      advance_.reset();
-    }
-    const auto earlier = [](const Active& a, const Active& b) {
-      return a.head->log_time_ns < b.head->log_time_ns;
-    };
-    auto first = std::min_element(active_.begin(), active_.end(), earlier);
-    while (next_part_ < parts_.size() &&
-           (first == active_.end() || parts_[next_part_].start_ns <= first->head->log_time_ns)) {
-      Activate();
-      first = std::min_element(active_.begin(), active_.end(), earlier);
-    }
-    if (first == active_.end()) return nullptr;
-    advance_ = static_cast<std::size_t>(first - active_.begin());
-    const auto topic = parts_[first->part].topic_of_channel[first->head->channel_id];
-    current_ = {topic.value_or(0), first->head->log_time_ns, first->head->data};
-    if (topic && !IsRepeated(*first, current_)) return &current_;
+  while (const Message* message = stream_->Next()) {
+    current_ = Played(*message);
+    if (!IsRepeated(current_, &last_latched_)) return &current_;
   }
+  return nullptr;
 }
 
 std::vector<RecordingSource::Latched> RecordingSource::LatchedBefore(std::int64_t time_ns) const {
-  struct Kept {
+  struct Found {
     std::int64_t time_ns;
     Latched message;
   };
-  std::map<std::size_t, std::deque<Kept>> kept;
-  const auto keep = [&](std::size_t topic, const Message& head, std::string_view data) {
-    std::deque<Kept>& own = kept[topic];
-    own.push_back({head.log_time_ns, {topic, std::string(data)}});
-    const PlayedTopic& played = topics_[topic];
-    const bool all = played.has_key || played.qos->depth == 0;
-    if (!all && own.size() > static_cast<std::size_t>(played.qos->depth)) own.pop_front();
+  std::vector<Found> found;
+  const auto add = [&](const PlayedMessage& message) {
+    found.push_back({message.time_ns, {message.topic, std::string(message.data)}});
   };
-  for (const Part& part : parts_) {
-    if (part.start_ns >= time_ns) continue;
-    const auto is_wanted = [&](const Channel& channel, bool newest_only) {
-      const auto topic = part.topic_of_channel[channel.id];
-      if (!topic || !topics_[*topic].is_latched() || topics_[*topic].name == kLog) return false;
-      return newest_only == (topics_[*topic].qos->depth == 1 && !topics_[*topic].has_key);
-    };
-    const auto newest = part.reader->NewestBefore(
-        time_ns - 1, [&](const Channel& channel) { return is_wanted(channel, true); });
-    for (const recording::StoredMessage& stored : newest) {
-      keep(*part.topic_of_channel[stored.message.channel_id], stored.message, stored.data);
-    }
-    recording::MessageFilter filter;
-    filter.end_time_ns = time_ns - 1;
-    filter.wanted = [&](const Channel& channel) { return is_wanted(channel, false); };
-    recording::MessageStream stream = part.reader->Messages(filter);
-    while (const Message* message = stream.Next()) {
-      keep(*part.topic_of_channel[message->channel_id], *message, message->data);
+  const auto is_latched = [](const PlayedTopic& topic) {
+    return topic.is_latched() && topic.name != kLog;
+  };
+  const auto newest_suffices = [](const PlayedTopic& topic) {
+    return topic.qos->depth == 1 && !topic.has_key;
+  };
+  const auto newest =
+      recorded_->NewestBefore(time_ns - 1, FilterOf([&](const PlayedTopic& topic) {
+                                             return is_latched(topic) && newest_suffices(topic);
+                                           }).wanted);
+  for (const recording::StoredMessage& stored : newest) {
+    add({*topic_of_channel_[stored.message.channel_id], stored.message.log_time_ns, stored.data});
+  }
+  recording::MessageFilter others = FilterOf(
+      [&](const PlayedTopic& topic) { return is_latched(topic) && !newest_suffices(topic); });
+  others.end_time_ns = time_ns - 1;
+  LastMessages last;
+  recording::RecordedStream stream = recorded_->Messages(others);
+  while (const Message* message = stream.Next()) {
+    const PlayedMessage played = Played(*message);
+    if (!IsRepeated(played, &last)) add(played);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.time_ns < b.time_ns; });
+  std::vector<std::size_t> later(topics_.size());  // messages of each topic behind this one
+  std::vector<Latched> messages;
+  for (auto one = found.rbegin(); one != found.rend(); ++one) {
+    const PlayedTopic& topic = topics_[one->message.topic];
+    const bool all = topic.has_key || topic.qos->depth == 0;
+    const std::size_t behind = later[one->message.topic]++;
+    if (all || behind < static_cast<std::size_t>(topic.qos->depth)) {
+      messages.push_back(std::move(one->message));
     }
   }
-  std::vector<Kept> all;
-  for (auto& [topic, own] : kept) std::move(own.begin(), own.end(), std::back_inserter(all));
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Kept& a, const Kept& b) { return a.time_ns < b.time_ns; });
-  std::vector<Latched> messages;
-  for (Kept& one : all) messages.push_back(std::move(one.message));
+  std::reverse(messages.begin(), messages.end());
   return messages;
 }
 

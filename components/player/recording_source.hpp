@@ -6,15 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "components/player/offered_qos.hpp"
-#include "libs/recording/reader.hpp"
+#include "libs/recording/recorded_messages.hpp"
 #include "libs/recording/topic_choice.hpp"
 
 namespace palpate::player {
@@ -49,8 +51,9 @@ class RecordingSource {
   const std::vector<PlayedTopic>& topics() const { return topics_; }
   /// What is not played, or is damaged, each with its reason.
   const std::vector<std::string>& problems() const { return problems_; }
-  std::int64_t start_ns() const { return start_ns_; }  ///< time of the first message
-  std::int64_t end_ns() const { return end_ns_; }      ///< and of the last
+  /// Time of the first message, and of the last.
+  std::int64_t start_ns() const { return recorded_->contents().statistics.start_time_ns; }
+  std::int64_t end_ns() const { return recorded_->contents().statistics.end_time_ns; }
 
   /// The next message is the first one at or after `time_ns`.
   void Seek(std::int64_t time_ns);
@@ -67,40 +70,26 @@ class RecordingSource {
   std::vector<Latched> LatchedBefore(std::int64_t time_ns) const;
 
  private:
-  /// One file.
-  struct Part {
-    std::unique_ptr<recording::Reader> reader;
-    std::vector<std::optional<std::size_t>> topic_of_channel;  ///< by id
-    std::int64_t start_ns = 0;
-    std::int64_t end_ns = 0;
-  };
-  /// A file that is being read.
-  struct Active {
-    std::size_t part = 0;
-    std::optional<recording::MessageStream> stream;
-    const recording::Message* head = nullptr;
-  };
+  using LastMessages = std::map<std::size_t, std::string>;  ///< by topic
 
-  void AddPart(const std::filesystem::path& file, const recording::TopicChoice& choice);
-  std::optional<std::size_t> TopicOf(const recording::Reader& reader,
-                                     const recording::Channel& channel,
+  void Add(const recording::Channel& channel, const recording::TopicChoice& choice);
+  std::optional<std::size_t> TopicOf(const recording::Channel& channel,
                                      const recording::TopicChoice& choice);
-  recording::MessageFilter FilterOf(const Part& part) const;
-  void Activate();
-  bool IsRepeated(const Active& active, const PlayedMessage& message);
+  /// All channels that are played of topics that `wanted` names.
+  recording::MessageFilter FilterOf(
+      const std::function<bool(const PlayedTopic&)>& wanted = {}) const;
+  bool IsRepeated(const PlayedMessage& message, LastMessages* last) const;
+  PlayedMessage Played(const recording::Message& message) const;
 
-  std::vector<Part> parts_;  ///< in the order of their beginnings
+  std::unique_ptr<const recording::RecordedMessages> recorded_;
+  std::vector<std::optional<std::size_t>> topic_of_channel_;  ///< by id
   std::vector<PlayedTopic> topics_;
   std::vector<std::string> problems_;
-  std::int64_t start_ns_ = 0;
-  std::int64_t end_ns_ = 0;
+  std::set<std::int64_t> splits_ns_;  ///< when all files but the first begin
 
-  std::int64_t sought_ns_ = 0;
-  std::size_t next_part_ = 0;
-  std::vector<Active> active_;
-  std::optional<std::size_t> advance_;  ///< of active_, before the next message is chosen
+  std::optional<recording::RecordedStream> stream_;
   PlayedMessage current_;
-  std::map<std::size_t, std::string> last_latched_;  ///< by topic
+  LastMessages last_latched_;
 };
 
 /// "rt/forces" -> "/forces"; other names stay.

@@ -34,6 +34,10 @@ class McapFile : public MessageFile {
   std::unique_ptr<FileMessages> Messages(const MessageFilter& filter) const override {
     return std::make_unique<McapMessages>(reader_.Messages(filter));
   }
+  std::vector<StoredMessage> NewestBefore(
+      std::int64_t time_ns, const std::function<bool(const Channel&)>& wanted) const override {
+    return reader_.NewestBefore(time_ns, wanted);
+  }
   std::vector<Attachment> Attachments() const override {
     std::vector<Attachment> attachments;
     for (const AttachmentIndex& index : reader_.contents().attachments) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ class MessageFile {
   virtual const Contents& contents() const = 0;
   /// Must not outlive this.
   virtual std::unique_ptr<FileMessages> Messages(const MessageFilter& filter) const = 0;
+  /// Of each channel that `wanted` names, the newest message at or before that time.
+  virtual std::vector<StoredMessage> NewestBefore(
+      std::int64_t time_ns, const std::function<bool(const Channel&)>& wanted) const = 0;
   /// Throws InputError where one is damaged.
   virtual std::vector<Attachment> Attachments() const = 0;
 };

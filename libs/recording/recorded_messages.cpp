@@ -23,6 +23,12 @@ bool IsExperiment(const fs::path& folder) {
   return fs::exists(folder / "experiment.yaml") || fs::exists(folder / "recording.yaml");
 }
 
+/// Whether rosbag2 compressed the message. CDR begins with a zero.
+bool IsPacked(std::string_view data) {
+  constexpr std::string_view kZstdFrame("\x28\xb5\x2f\xfd", 4);
+  return data.starts_with(kZstdFrame);
+}
+
 void RefuseMixed(const fs::path& folder, const std::vector<fs::path>& mcap,
                  const std::vector<fs::path>& sqlite, const std::vector<fs::path>& packed) {
   if (!mcap.empty() && !sqlite.empty()) {
@@ -80,8 +86,8 @@ void RecordedMessages::Add(const Contents& contents) {
     const Schema& theirs = schema == contents.schemas.end() ? Schema{} : schema->second;
     const auto same = [&](const auto& entry) {
       const Schema& ours = SchemaOf(entry.second);
-      return entry.second.topic == channel.topic && ours.name == theirs.name &&
-             ours.data == theirs.data;
+      return entry.second.topic == channel.topic && entry.second.metadata == channel.metadata &&
+             ours.name == theirs.name && ours.data == theirs.data;
     };
     const auto found = std::find_if(contents_.channels.begin(), contents_.channels.end(), same);
     if (found != contents_.channels.end()) {
@@ -111,6 +117,37 @@ void RecordedMessages::Add(const Contents& contents) {
 
 const Schema& RecordedMessages::SchemaOf(const Channel& channel) const {
   return contents_.schemas.at(channel.id);
+}
+
+std::function<bool(const Channel&)> RecordedMessages::OfFile(
+    std::size_t file, const std::function<bool(const Channel&)>& wanted) const {
+  return [this, file, wanted](const Channel& channel) {
+    return wanted(contents_.channels.at(ids_[file].at(channel.id)));
+  };
+}
+
+std::vector<StoredMessage> RecordedMessages::NewestBefore(
+    std::int64_t time_ns, const std::function<bool(const Channel&)>& wanted) const {
+  std::map<std::uint16_t, StoredMessage> newest;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    for (StoredMessage& found : files_[i]->NewestBefore(time_ns, OfFile(i, wanted))) {
+      std::string unpacked;
+      std::string cause;
+      if (IsPacked(found.data)) {
+        if (!UnpackZstdFrame(found.data, &unpacked, &cause)) continue;
+        found.data = std::move(unpacked);
+      }
+      const std::uint16_t id = ids_[i].at(found.message.channel_id);
+      found.message.channel_id = id;
+      const auto known = newest.find(id);
+      const bool is_newest =
+          known == newest.end() || known->second.message.log_time_ns <= found.message.log_time_ns;
+      if (is_newest) newest[id] = std::move(found);
+    }
+  }
+  std::vector<StoredMessage> messages;
+  for (auto& [id, message] : newest) messages.push_back(std::move(message));
+  return messages;
 }
 
 std::vector<Attachment> RecordedMessages::Attachments() const {
@@ -150,13 +187,7 @@ void RecordedStream::OpenUntil(std::int64_t time_ns) {
     if (any() && file.contents().statistics.start_time_ns > time_ns) return;
     waiting_.pop_back();
     MessageFilter of_file = filter_;
-    if (filter_.wanted) {
-      // Whoever chooses knows the joint channels.
-      of_file.wanted = [this, index](const Channel& channel) {
-        const std::uint16_t id = recorded_->ids_[index].at(channel.id);
-        return filter_.wanted(recorded_->contents_.channels.at(id));
-      };
-    }
+    if (filter_.wanted) of_file.wanted = recorded_->OfFile(index, filter_.wanted);
     Part part{.file = index, .messages = file.Messages(of_file), .next = nullptr};
     part.next = part.messages->Next();
     parts_.push_back(std::move(part));
@@ -181,24 +212,17 @@ const Message* RecordedStream::Next() {
     current_ = &*first;
     message_ = *current_->next;
     message_.channel_id = recorded_->ids_[current_->file].at(message_.channel_id);
-    if (Unpack()) return &message_;
+    if (!IsPacked(message_.data)) return &message_;
+    std::string cause;
+    if (UnpackZstdFrame(message_.data, &unpacked_, &cause)) {
+      message_.data = unpacked_;
+      return &message_;
+    }
+    if (problems_.empty()) {
+      problems_.push_back(recorded_->files_[current_->file]->path().string() +
+                          ": compressed messages are left out: " + cause);
+    }
   }
-}
-
-/// False where the payload is damaged; it is left out then.
-bool RecordedStream::Unpack() {
-  constexpr std::string_view kZstdFrame("\x28\xb5\x2f\xfd", 4);  // CDR begins with a zero
-  if (!message_.data.starts_with(kZstdFrame)) return true;
-  std::string cause;
-  if (UnpackZstdFrame(message_.data, &unpacked_, &cause)) {
-    message_.data = unpacked_;
-    return true;
-  }
-  if (problems_.empty()) {
-    problems_.push_back(recorded_->files_[current_->file]->path().string() +
-                        ": compressed messages are left out: " + cause);
-  }
-  return false;
 }
 
 std::vector<std::string> RecordedStream::Problems() const {

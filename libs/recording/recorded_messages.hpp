@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -42,7 +43,6 @@ class RecordedStream {
   };
 
   void OpenUntil(std::int64_t time_ns);
-  bool Unpack();
 
   const RecordedMessages* recorded_;
   MessageFilter filter_;
@@ -72,6 +72,11 @@ class RecordedMessages {
   /// Must not outlive this.
   RecordedStream Messages(const MessageFilter& filter = {}) const { return {*this, filter}; }
 
+  /// What a reader that joins at `time_ns` would still get of latched topics: of each channel that
+  /// `wanted` names, the newest message at or before that time.
+  std::vector<StoredMessage> NewestBefore(std::int64_t time_ns,
+                                          const std::function<bool(const Channel&)>& wanted) const;
+
   /// Of all files, each name once: the parts of a run carry the same. Throws InputError where one
   /// is damaged.
   std::vector<Attachment> Attachments() const;
@@ -80,6 +85,9 @@ class RecordedMessages {
   friend class RecordedStream;
 
   void Add(const Contents& contents);
+  /// `wanted`, which knows the joint channels, of the channels of one file.
+  std::function<bool(const Channel&)> OfFile(
+      std::size_t file, const std::function<bool(const Channel&)>& wanted) const;
 
   std::vector<std::unique_ptr<MessageFile>> files_;
   Contents contents_;

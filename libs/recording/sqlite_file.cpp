@@ -114,6 +114,24 @@ class SqliteFile : public MessageFile {
     return std::make_unique<SqliteMessages>(database_.get(), file_, ids_, sql);
   }
 
+  std::vector<StoredMessage> NewestBefore(
+      std::int64_t time_ns, const std::function<bool(const Channel&)>& wanted) const override {
+    std::vector<StoredMessage> newest;
+    for (const auto& [topic, id] : ids_) {
+      if (!wanted(contents_.channels.at(id))) continue;
+      SqliteMessages messages(database_.get(), file_, ids_,
+                              "SELECT topic_id, timestamp, data FROM messages WHERE topic_id = " +
+                                  std::to_string(topic) +
+                                  " AND timestamp <= " + std::to_string(time_ns) +
+                                  " ORDER BY timestamp DESC, id DESC LIMIT 1");
+      const Message* message = messages.Next();
+      if (message == nullptr) continue;
+      newest.push_back({*message, std::string(message->data)});
+      newest.back().message.data = {};
+    }
+    return newest;
+  }
+
  private:
   [[noreturn]] void Refuse(const std::string& cause) const {
     throw InputError({file_.string()},

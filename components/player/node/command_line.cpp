@@ -19,7 +19,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
-#include "libs/recording/mcap_files.hpp"
+#include "libs/recording/recorded_messages.hpp"
 
 namespace palpate::player {
 
@@ -38,22 +38,22 @@ void CheckKind(const Command& command) {
     if (given)
       throw InputError(option + " is for " + kind + ", which " + command.data.string() + " is not");
   };
-  if (!command.mcap_files.empty()) {
+  if (!command.message_files.empty()) {
     refuse(command.images, "--images", "experiment folders");
     refuse(!command.recording.empty(), "--recording", "experiment folders");
     return;
   }
-  const std::string kMcap = "MCAP recordings";
-  refuse(!command.topics.empty(), "--topic", kMcap);
-  refuse(!command.excluded.empty(), "--exclude", kMcap);
-  refuse(command.paused, "--pause", kMcap);
-  refuse(command.start_s != 0.0, "--start", kMcap);
-  refuse(command.end_s != 0.0, "--end", kMcap);
-  refuse(command.duration_s != 0.0, "--duration", kMcap);
-  refuse(!command.step_topic.empty(), "--step-topic", kMcap);
-  refuse(command.step_count != 1, "--step-count", kMcap);
-  refuse(command.beside_writers, "--beside-writers", kMcap);
-  refuse(command.json, "--json", kMcap);
+  const std::string kMessages = "MCAP and .db3 files";
+  refuse(!command.topics.empty(), "--topic", kMessages);
+  refuse(!command.excluded.empty(), "--exclude", kMessages);
+  refuse(command.paused, "--pause", kMessages);
+  refuse(command.start_s != 0.0, "--start", kMessages);
+  refuse(command.end_s != 0.0, "--end", kMessages);
+  refuse(command.duration_s != 0.0, "--duration", kMessages);
+  refuse(!command.step_topic.empty(), "--step-topic", kMessages);
+  refuse(command.step_count != 1, "--step-count", kMessages);
+  refuse(command.beside_writers, "--beside-writers", kMessages);
+  refuse(command.json, "--json", kMessages);
 }
 
 void CheckTimes(const Command& command) {
@@ -157,7 +157,7 @@ int PlayRecording(const Command& command) {
   RecordingPlan plan = PlanOf(command);
   StatePrinter printer(command.json);
   plan.show = [&](const PlaybackState& state) { printer.Show(state); };
-  RecordingSource source(command.mcap_files, {command.topics, command.excluded});
+  RecordingSource source(command.message_files, {command.topics, command.excluded});
   RecordingNode node(command.config, std::move(plan), std::move(source), command.options.domain_id,
                      TableOf(command), app::Log);
   const app::StopSignal stop([&] { node.Stop(); });
@@ -170,7 +170,7 @@ int PlayRecording(const Command& command) {
 
 void DeclarePlay(app::Arguments& arguments, Command* command) {
   arguments.Positional("RECORDING", &command->target,
-                       "MCAP file, folder of MCAP files, experiment or recording folder",
+                       "MCAP or .db3 file or folder of them, experiment or recording folder",
                        app::Need::kOptional);
   arguments.Option("--data PATH", &command->data, "The same as RECORDING");
   arguments.Option("--rate FACTOR", &command->rate, "Speed relative to real time, above 0");
@@ -183,25 +183,26 @@ void DeclarePlay(app::Arguments& arguments, Command* command) {
   arguments.Flag("--images", &command->images,
                  "Of an experiment: publish depth and colour images instead of markers");
   arguments.Repeated("--topic NAME", &command->topics,
-                     "Of MCAP: play this topic, or those that fit a pattern like '/camera/*'; "
+                     "Of messages: play this topic, or those that fit a pattern like '/camera/*'; "
                      "without it all");
   arguments.Repeated("--exclude NAME", &command->excluded,
-                     "Of MCAP: do not play this topic, or those that fit a pattern");
-  arguments.Flag("--pause", &command->paused, "Of MCAP: start paused");
-  arguments.Option("--start S", &command->start_s, "Of MCAP: start at this time, s");
-  arguments.Option("--end S", &command->end_s, "Of MCAP: end at this time, s; 0: at its end");
+                     "Of messages: do not play this topic, or those that fit a pattern");
+  arguments.Flag("--pause", &command->paused, "Of messages: start paused");
+  arguments.Option("--start S", &command->start_s, "Of messages: start at this time, s");
+  arguments.Option("--end S", &command->end_s, "Of messages: end at this time, s; 0: at its end");
   arguments.Option("--duration S", &command->duration_s,
-                   "Of MCAP: play so long a part, s; 0: to its end");
-  arguments.Option("--step-topic NAME", &command->step_topic,
-                   "Of MCAP: topic whose messages are steps; without it markers, contacts or depth "
-                   "images with --step, and any topic for the key s");
+                   "Of messages: play so long a part, s; 0: to its end");
+  arguments.Option(
+      "--step-topic NAME", &command->step_topic,
+      "Of messages: topic whose messages are steps; without it markers, contacts or depth "
+      "images with --step, and any topic for the key s");
   arguments.Option("--step-count N", &command->step_count, 1, 1000000,
-                   "Of MCAP: messages of it that the key s plays");
+                   "Of messages: messages of it that the key s plays");
   arguments.Flag("--beside-writers", &command->beside_writers,
-                 "Of MCAP: also play topics that live writers publish");
+                 "Of messages: also play topics that live writers publish");
   arguments.Flag("--clock", &command->clock, "Publish /clock, as publish_clock does");
   arguments.Flag("--json", &command->json,
-                 "Of MCAP: print the state as one line of JSON each second");
+                 "Of messages: print the state as one line of JSON each second");
 }
 
 void SettlePlay(Command* command) {
@@ -210,7 +211,7 @@ void SettlePlay(Command* command) {
   }
   if (command->data.empty()) command->data = command->target;
   if (command->data.empty()) {
-    throw InputError("RECORDING is required: give an MCAP file, or an experiment folder");
+    throw InputError("RECORDING is required: give an MCAP or .db3 file, or an experiment folder");
   }
   if (command->rate <= 0.0) {
     throw InputError("--rate: must be above 0, not " + FormatNumber(command->rate));
@@ -219,7 +220,7 @@ void SettlePlay(Command* command) {
   if (int{rate_given} + int{command->step} + int{command->as_fast_as_possible} > 1) {
     throw InputError("only one of --rate, --step and --as-fast-as-possible can be given");
   }
-  command->mcap_files = recording::McapFilesOf(command->data);
+  command->message_files = recording::MessageFilesOf(command->data);
   CheckKind(*command);
   CheckTimes(*command);
   if (command->clock) command->config.publish_clock = true;
@@ -238,7 +239,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 
 int Play(const Command& command) {
   app::StartLog("palpate-player", command.options);
-  return command.mcap_files.empty() ? PlayExperiment(command) : PlayRecording(command);
+  return command.message_files.empty() ? PlayExperiment(command) : PlayRecording(command);
 }
 
 }  // namespace palpate::player

@@ -38,7 +38,7 @@ struct Command : app::NodeCommand<NodeConfig> {
   bool clock = false;
   bool json = false;
 
-  std::vector<std::filesystem::path> mcap_files;  ///< that `data` names; empty: an experiment
+  std::vector<std::filesystem::path> message_files;  ///< that `data` names; empty: an experiment
 };
 
 /// Declares what `palpate-player` and `palpate play` have in common.

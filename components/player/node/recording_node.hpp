@@ -24,7 +24,7 @@
 
 namespace palpate::player {
 
-/// How an MCAP recording is played.
+/// How a message file is played.
 struct RecordingPlan {
   double rate = 1.0;                 ///< > 0; infinity: as fast as possible
   bool step = false;                 ///< the next frame when /forces answered the last one

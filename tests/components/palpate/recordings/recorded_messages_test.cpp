@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "components/palpate/recordings/describe_mcap.hpp"
 #include "tests/components/palpate/recordings/topic_recording.hpp"
 #include "tests/support/test_folder.hpp"
@@ -77,6 +79,32 @@ TEST(RecordedMessages, AFilterChoosesTopicsAndTimes) {
   filter.start_time_ns = 1200;
   EXPECT_THAT(AllOf(RecordedMessages({folder / "run.db3"}), filter),
               ElementsAre(std::pair("/b", 1300)));
+}
+
+TEST(RecordedMessages, KnowTheNewestMessageOfEachChannelBeforeATime) {
+  const TestFolder folder;
+  Words(2000).WriteMcap(folder / "mcap/run_0.mcap");
+  Words(1050).WriteMcap(folder / "mcap/run_1.mcap");
+  Words(2000).WriteSqlite(folder / "sqlite/run_0.db3");
+  Words(1050).WriteSqlite(folder / "sqlite/run_1.db3");
+  for (const char* format : {"mcap", "sqlite"}) {
+    const RecordedMessages recorded(MessageFilesOf(folder / format));
+    const auto newest = [&](std::int64_t time_ns) {
+      std::vector<std::pair<std::string, std::int64_t>> found;
+      const auto all = [](const Channel&) { return true; };
+      for (const StoredMessage& stored : recorded.NewestBefore(time_ns, all)) {
+        found.emplace_back(recorded.contents().channels.at(stored.message.channel_id).topic,
+                           stored.message.log_time_ns);
+        EXPECT_FALSE(stored.data.empty());
+      }
+      std::sort(found.begin(), found.end());
+      return found;
+    };
+    EXPECT_THAT(newest(1049), IsEmpty()) << format;
+    EXPECT_THAT(newest(1050), ElementsAre(std::pair("/a", 1050))) << format;
+    EXPECT_THAT(newest(1999), ElementsAre(std::pair("/a", 1250), std::pair("/b", 1350))) << format;
+    EXPECT_THAT(newest(2000), ElementsAre(std::pair("/a", 2000), std::pair("/b", 1350))) << format;
+  }
 }
 
 TEST(RecordedMessages, ASqliteRecordingIsDescribed) {
