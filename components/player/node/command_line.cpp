@@ -14,6 +14,7 @@
 
 #include "libs/app/log.hpp"
 #include "libs/app/operator_keys.hpp"
+#include "libs/app/process_tuning.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
@@ -162,6 +163,7 @@ int PlayRecording(const Command& command) {
                      TableOf(command), app::Log);
   const app::StopSignal stop([&] { node.Stop(); });
   const app::OperatorKeys keys([&](app::OperatorKey key) { AnswerKey(key, node); });
+  app::PreferPromptWakeUps();
   node.Run();
   return app::kExitDone;
 }
@@ -238,6 +240,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 }
 
 int Play(const Command& command) {
+  app::KeepLargeBlocks();
   app::StartLog("palpate-player", command.options);
   return command.message_files.empty() ? PlayExperiment(command) : PlayRecording(command);
 }

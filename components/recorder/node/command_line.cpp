@@ -4,7 +4,6 @@
 #include "components/recorder/node/command_line.hpp"
 
 #include <fmt/core.h>
-#include <malloc.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include "components/recorder/node/status_json.hpp"
 #include "libs/app/log.hpp"
 #include "libs/app/operator_keys.hpp"
+#include "libs/app/process_tuning.hpp"
 #include "libs/app/project_files.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
@@ -32,9 +32,6 @@ namespace {
 
 /// Where the standard output is no terminal, a line comes this seldom.
 constexpr double kLinePeriod_s = 10.0;
-
-/// Larger blocks of memory go back to the system at once; glibc's limit for the first is 32 MB.
-constexpr int kReusedBytes = 32 << 20;
 
 std::atomic<RecorderNode*> g_node{nullptr};
 static_assert(std::atomic<RecorderNode*>::is_always_lock_free);
@@ -203,9 +200,7 @@ std::unique_ptr<RecorderNode> MakeNode(const Command& command) {
 }
 
 int Record(const Command& command) {
-  // Images come and go: memory that is given back to the system costs a page fault for every 4 kB.
-  mallopt(M_MMAP_THRESHOLD, kReusedBytes);
-  mallopt(M_TRIM_THRESHOLD, kReusedBytes);
+  app::KeepLargeBlocks();
   app::StartLog("palpate-recorder", command.options);
   const auto node = MakeNode(command);
   const app::StopSignal stop([&] { node->Stop(); });

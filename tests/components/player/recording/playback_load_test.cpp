@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
-#include "libs/core/seconds.hpp"
-#include "libs/dds/camera_publisher.hpp"
-#include "tests/components/player/recording/running_playback.hpp"
+#include "tests/components/player/recording/sample_recording.hpp"
+#include "tests/libs/dds/test_participant.hpp"
 #include "tests/support/test_folder.hpp"
+#include "tests/system/process.hpp"
 
 /// The player under the load of a camera, in real time.
 namespace palpate::player {
@@ -90,17 +93,20 @@ TEST_F(PlaybackLoad, NinetyNineOfAHundredMessagesAreLateByAtMost2ms) {
   listener.loop.Attach(color, [&] {
     for (const auto& image : color.Take()) color_count += image.data._length > 0 ? 1 : 0;
   });
-  PlaybackState last;
-  RunningPlayback player({folder / "run.mcap"}, {.show = [&](const PlaybackState& state) {
-                           if (state.ended) last = state;
-                         }});
-  ASSERT_TRUE(listener.loop.DispatchUntil([&] { return player.finished(); },
-                                          dds::WaitSet::Clock::now() + std::chrono::seconds(100)));
-  EXPECT_EQ(player.Join(), "");
-  RecordProperty("lateness_p50_ms", std::to_string(1e3 * last.lateness_p50_s));
-  RecordProperty("lateness_p99_ms", std::to_string(1e3 * last.lateness_p99_s));
-  EXPECT_EQ(last.messages, static_cast<std::uint64_t>(6 * kFrames));
-  EXPECT_LE(last.lateness_p99_s, 2e-3);
+  system_test::Process player("palpate-player", {(folder / "run.mcap").string(), "--json"},
+                              folder / "log.txt");
+  std::optional<int> code;
+  listener.loop.DispatchUntil([&] { return !!(code = player.Wait(std::chrono::seconds(0))); },
+                              dds::WaitSet::Clock::now() + std::chrono::seconds(100));
+  ASSERT_EQ(code, 0) << player.Output();
+  const std::string output = player.Output();
+  const auto last = nlohmann::json::parse(output.substr(
+      output.rfind("{\"position_s\""), output.rfind('}') + 1 - output.rfind("{\"position_s\"")));
+  EXPECT_TRUE(last.at("ended"));
+  RecordProperty("lateness_p50_ms", std::to_string(1e3 * last.at("lateness_p50_s").get<double>()));
+  RecordProperty("lateness_p99_ms", std::to_string(1e3 * last.at("lateness_p99_s").get<double>()));
+  EXPECT_EQ(last.at("messages"), 6 * kFrames);
+  EXPECT_LE(last.at("lateness_p99_s").get<double>(), 2e-3);
   EXPECT_EQ(depth_count, kFrames);
   EXPECT_EQ(color_count, kFrames);
 }

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+namespace palpate::app {
+
+/// Keeps freed memory of large messages for the next ones. Memory that is given back to the system
+/// costs a page fault for every 4 kB. To be called before other threads begin.
+void KeepLargeBlocks();
+
+/// Asks for prompt wake-ups of the calling thread, in short turns, without more of the processor
+/// (Linux 6.12; earlier ones have no such choice).
+void PreferPromptWakeUps();
+
+}  // namespace palpate::app
