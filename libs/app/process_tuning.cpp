@@ -4,11 +4,6 @@
 #include "libs/app/process_tuning.hpp"
 
 #include <malloc.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-#include <cstdint>
 
 namespace palpate::app {
 
@@ -17,31 +12,11 @@ namespace {
 /// Larger blocks of memory go back to the system at once; glibc's limit for the first is 32 MB.
 constexpr int kReusedBytes = 32 << 20;
 
-/// As the kernel lays it out (sched_setattr(2)); glibc has it from 2.41 on.
-struct SchedulingAttributes {
-  std::uint32_t size = sizeof(SchedulingAttributes);
-  std::uint32_t policy = 0;  ///< SCHED_OTHER
-  std::uint64_t flags = 0;
-  std::int32_t nice = 0;
-  std::uint32_t priority = 0;
-  std::uint64_t runtime_ns = 0;  ///< of SCHED_OTHER: length of a turn
-  std::uint64_t deadline_ns = 0;
-  std::uint64_t period_ns = 0;
-};
-
 }  // namespace
 
 void KeepLargeBlocks() {
   mallopt(M_MMAP_THRESHOLD, kReusedBytes);
   mallopt(M_TRIM_THRESHOLD, kReusedBytes);
-}
-
-void PreferPromptWakeUps() {
-  constexpr std::uint64_t kShortestTurn_ns = 100'000;
-  SchedulingAttributes attributes;
-  attributes.nice = getpriority(PRIO_PROCESS, 0);
-  attributes.runtime_ns = kShortestTurn_ns;
-  syscall(SYS_sched_setattr, 0, &attributes, 0);
 }
 
 }  // namespace palpate::app

@@ -9,8 +9,4 @@ namespace palpate::app {
 /// costs a page fault for every 4 kB. To be called before other threads begin.
 void KeepLargeBlocks();
 
-/// Asks for prompt wake-ups of the calling thread, in short turns, without more of the processor
-/// (Linux 6.12; earlier ones have no such choice).
-void PreferPromptWakeUps();
-
 }  // namespace palpate::app

@@ -163,7 +163,6 @@ int PlayRecording(const Command& command) {
                      TableOf(command), app::Log);
   const app::StopSignal stop([&] { node.Stop(); });
   const app::OperatorKeys keys([&](app::OperatorKey key) { AnswerKey(key, node); });
-  app::PreferPromptWakeUps();
   node.Run();
   return app::kExitDone;
 }
