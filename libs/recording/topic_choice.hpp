@@ -12,7 +12,8 @@ namespace palpate::recording {
 /// Whether `text` fits `pattern`, in which "*" stands for any characters.
 bool Matches(std::string_view text, std::string_view pattern);
 
-/// Which topics are recorded or played: those that fit one of `wanted` (empty: all), and none of `excluded`.
+/// Which topics are recorded or played: those that fit one of `wanted` (empty: all), and none of
+/// `excluded`.
 struct TopicChoice {
   std::vector<std::string> wanted;  ///< names or patterns: "/camera/*"
   std::vector<std::string> excluded;

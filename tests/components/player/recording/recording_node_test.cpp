@@ -14,6 +14,7 @@
 #include "tests/components/player/recording/running_playback.hpp"
 #include "tests/components/recorder/live/running_recorder.hpp"
 #include "tests/components/recorder/sample_messages.hpp"
+#include "tests/support/measured_data.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::player {
@@ -300,6 +301,20 @@ TEST_F(RecordingNodeTest, StepsNeedATopicThatCanBeAnswered) {
   EXPECT_THROW(RunningPlayback({file}, {.step = true, .step_topic = "/test/state"}), InputError);
   EXPECT_THROW(RunningPlayback({file}, {.step_topic = "/test/stade"}), InputError);
   EXPECT_THROW(RunningPlayback({file}, {.start_s = 5.0}), InputError);
+}
+
+TEST_F(RecordingNodeTest, ARecordingOfRos2HumbleIsPlayedAsItIs) {
+  const auto file = test_support::MeasuredDataFolder() / "ros2/ros2_humble_image_wrench.mcap";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " (set PALPATE_DATA_DIR)";
+  auto depth = listener_.participant.CreateReader(dds::kDepthImageTopic);
+  std::set<std::int64_t> stamps_ns;
+  listener_.loop.Attach(depth, [&] {
+    for (const auto& image : depth.Take()) stamps_ns.insert(dds::StampNs(image.header.stamp));
+  });
+  RunningPlayback player({file}, {.rate = 4.0});
+  ASSERT_TRUE(WaitForEnd(player));
+  EXPECT_EQ(player.Join(), "");
+  EXPECT_TRUE(listener_.WaitFor([&] { return stamps_ns.size() == 60; }));
 }
 
 TEST_F(RecordingNodeTest, WhatIsRecordedOfAPlaybackIsTheRecordingToTheBit) {
