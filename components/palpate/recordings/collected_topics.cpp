@@ -190,11 +190,35 @@ class Collector {
     recording::RecordedStream stream = recorded_.Messages(filter);
     while (const recording::Message* message = stream.Next()) Take(*message);
     for (const std::string& problem : stream.Problems()) ++topics_.left_out[problem];
+    FindSegments();
     if (topics_.setups.empty()) topics_.setups = std::move(frame_infos_);
     return std::move(topics_);
   }
 
  private:
+  void Extend(const std::string& name, bool is_new, const MessageTime& time) {
+    if (is_new || topics_.segments.empty()) topics_.segments.push_back({name, time, time});
+    topics_.segments.back().last = time;
+  }
+
+  /// By the names of played recordings; without, where the stamps of frames jump back.
+  void FindSegments() {
+    for (const CollectedMarkers& frame : topics_.markers) {
+      const bool is_new =
+          !topics_.segments.empty() && topics_.segments.back().name != frame.recording;
+      Extend(frame.recording, is_new, frame.time);
+    }
+    if (topics_.segments.empty()) {
+      for (const CollectedSetup& frame : frame_infos_) {
+        const bool is_new = !topics_.segments.empty() &&
+                            frame.time.stamp_ns < topics_.segments.back().last.stamp_ns;
+        Extend("", is_new, frame.time);
+      }
+    }
+    const bool all_is_one = topics_.segments.size() == 1 && topics_.segments.front().name.empty();
+    if (all_is_one) topics_.segments.clear();
+  }
+
   bool IsInfo(const recording::Channel& channel) const {
     return RosTypeOf(recorded_.SchemaOf(channel).name) == "sensor_msgs/msg/CameraInfo";
   }
@@ -240,7 +264,7 @@ class Collector {
     }
     if (cause.empty() && is_depth && image.encoding == "32FC1") cause = Survey(image);
     if (!cause.empty()) return LeaveOut(message, cause);
-    images->push_back({{StampOf(message, type), message.log_time_ns, 0}, image.frame_id});
+    images->push_back({{StampOf(message, type), message.log_time_ns, 0, 0}, image.frame_id});
   }
 
   std::string Survey(const RosImage& image) {
@@ -261,7 +285,7 @@ class Collector {
     CdrReader reader = type.At("header", message.data);
     const MessageHeader header = ReadHeader(&reader);
     if (!reader.ok()) return LeaveOut(message, "does not fit the definition of its type");
-    topics_.points.push_back({{header.stamp_ns, message.log_time_ns, 0}, header.frame_id});
+    topics_.points.push_back({{header.stamp_ns, message.log_time_ns, 0, 0}, header.frame_id});
   }
 
   void TakeTransforms(const recording::Message& message, const MessageType& type) {
@@ -300,7 +324,7 @@ class Collector {
     CollectedSetup setup;
     setup.depth_unit_m = Real(&reader);
     setup.invalid_value = static_cast<int>(reader.Length());
-    setup.time = {StampOf(message, type), message.log_time_ns, 0};
+    setup.time = {StampOf(message, type), message.log_time_ns, 0, 0};
     if (reader.ok() && setup.depth_unit_m > 0.0) frame_infos_.push_back(setup);
   }
 
@@ -330,7 +354,7 @@ class Collector {
     if (roles_.Is(kCalibrationTopic, id)) TakeCalibration(message, *type);
     if (roles_.Is(kPhaseTopic, id)) {
       CdrReader reader = type->At("data", message.data);
-      topics_.phases.push_back({{0, message.log_time_ns, 0}, std::string(reader.String())});
+      topics_.phases.push_back({{0, message.log_time_ns, 0, 0}, std::string(reader.String())});
     }
   }
 

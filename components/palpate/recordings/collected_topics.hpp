@@ -23,6 +23,7 @@ struct MessageTime {
   std::int64_t stamp_ns = 0;  ///< of its header
   std::int64_t log_ns = 0;
   std::int64_t t_ns = 0;  ///< on the clock of the experiment, once that is chosen
+  int segment = 0;        ///< of CollectedTopics::segments
 };
 
 struct CollectedImage {
@@ -88,6 +89,14 @@ struct CollectedPhase {
   std::string text;
 };
 
+/// A stretch of the log with stamps of its own: recordings that were played one after the other may
+/// each begin at 0.
+struct Segment {
+  std::string name;  ///< of the recording that was played; may be empty
+  MessageTime first;
+  MessageTime last;
+};
+
 /// All that the topics of an experiment hold but the pixels and points themselves.
 struct CollectedTopics {
   std::vector<CollectedImage> depth;
@@ -99,7 +108,8 @@ struct CollectedTopics {
   std::vector<CollectedJoints> joints;
   std::vector<CollectedWrench> wrenches;
   std::vector<CollectedPhase> phases;
-  TransformTree transforms;  ///< by log time
+  std::vector<Segment> segments;  ///< by log time; empty: all is one
+  TransformTree transforms;       ///< by log time
   /// p_robot = T p_camera, of the last /calibration that has one.
   std::optional<Eigen::Isometry3d> T_robot_camera;
   std::optional<geometry::PoseStandardError> T_robot_camera_error;

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace palpate::command {
 
@@ -38,31 +39,114 @@ std::map<std::string, Times> SampledTimes(CollectedTopics* topics) {
   return times;
 }
 
+/// By log time: what is logged between two segments belongs to the one whose stamps are nearer.
+int SegmentByLog(const MessageTime& time, const std::vector<Segment>& segments) {
+  std::size_t index = 0;
+  while (index + 1 < segments.size()) {
+    const MessageTime& last = segments[index].last;
+    const MessageTime& next = segments[index + 1].first;
+    if (time.log_ns <= last.log_ns) break;
+    const bool nearer_to_last =
+        std::llabs(time.stamp_ns - last.stamp_ns) <= std::llabs(time.stamp_ns - next.stamp_ns);
+    if (time.log_ns < next.log_ns && nearer_to_last) break;
+    ++index;
+  }
+  return static_cast<int>(index);
+}
+
+int SegmentByStamp(const MessageTime& time, const std::vector<Segment>& segments) {
+  std::size_t index = 0;
+  while (index + 1 < segments.size()) {
+    const std::int64_t last_ns = segments[index].last.stamp_ns;
+    const std::int64_t next_ns = segments[index + 1].first.stamp_ns;
+    if (time.stamp_ns <= last_ns + (next_ns - last_ns) / 2) break;
+    ++index;
+  }
+  return static_cast<int>(index);
+}
+
+bool RiseByStamp(const std::vector<Segment>& segments) {
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    if (segments[i].first.stamp_ns <= segments[i - 1].last.stamp_ns) return false;
+  }
+  return true;
+}
+
+/// A recorder takes topics in bursts, so that log times tell least: the stamps tell where they
+/// rise through all segments, then the places where they jump back, and log times last.
+void SetSegments(const Times& times, const std::vector<Segment>& segments) {
+  if (segments.size() < 2) return;
+  std::size_t jumps = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    jumps += times[i]->stamp_ns < times[i - 1]->stamp_ns ? 1 : 0;
+  }
+  const bool by_stamp = RiseByStamp(segments);
+  const bool by_jump = jumps + 1 == segments.size();
+  int segment = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (i > 0 && times[i]->stamp_ns < times[i - 1]->stamp_ns) ++segment;
+    times[i]->segment = by_stamp  ? SegmentByStamp(*times[i], segments)
+                        : by_jump ? segment
+                                  : SegmentByLog(*times[i], segments);
+  }
+}
+
 /// Whether they run backwards by more than disorder on the way, and are not sent again.
 bool RunsBackwards(const Times& times) {
-  std::set<std::int64_t> known;
-  std::int64_t latest_ns = std::numeric_limits<std::int64_t>::min();
+  std::set<std::pair<int, std::int64_t>> known;
+  std::map<int, std::int64_t> latest_ns;
   for (const MessageTime* time : times) {
-    const bool again = !known.insert(time->stamp_ns).second;
-    if (!again && latest_ns > kSecond_ns && time->stamp_ns < latest_ns - kSecond_ns) return true;
-    latest_ns = std::max(latest_ns, time->stamp_ns);
+    const bool again = !known.insert({time->segment, time->stamp_ns}).second;
+    const auto [latest, first] = latest_ns.emplace(time->segment, time->stamp_ns);
+    if (!again && !first && time->stamp_ns < latest->second - kSecond_ns) return true;
+    latest->second = std::max(latest->second, time->stamp_ns);
   }
   return false;
 }
 
-/// Median of log time minus stamp of `times`, less that of the message of `others` before each.
-std::int64_t ClockDifference(const Times& times, const Times& others) {
-  std::vector<std::int64_t> differences_ns;
-  std::size_t other = 0;
-  for (const MessageTime* time : times) {
-    while (other + 1 < others.size() && others[other + 1]->log_ns <= time->log_ns) ++other;
-    differences_ns.push_back((time->log_ns - time->stamp_ns) -
-                             (others[other]->log_ns - others[other]->stamp_ns));
-  }
-  const auto middle =
-      differences_ns.begin() + static_cast<std::ptrdiff_t>(differences_ns.size() / 2);
-  std::nth_element(differences_ns.begin(), middle, differences_ns.end());
+/// Shortest and longest of stamps, or log times.
+std::pair<std::int64_t, std::int64_t> RangeOf(const Times& times,
+                                              std::int64_t MessageTime::*value) {
+  const auto [first, last] = std::minmax_element(
+      times.begin(), times.end(),
+      [&](const MessageTime* a, const MessageTime* b) { return a->*value < b->*value; });
+  return {(*first)->*value, (*last)->*value};
+}
+
+/// Time between two ranges; 0: they overlap.
+std::int64_t GapBetween(const std::pair<std::int64_t, std::int64_t>& a,
+                        const std::pair<std::int64_t, std::int64_t>& b) {
+  return std::max<std::int64_t>({0, a.first - b.second, b.first - a.second});
+}
+
+/// Whether stamps went by as time did: not faster or slower, as where recordings are played.
+bool IsRealTime(const Times& times) {
+  const auto stamps = RangeOf(times, &MessageTime::stamp_ns);
+  const auto logs = RangeOf(times, &MessageTime::log_ns);
+  const std::int64_t difference_ns =
+      std::llabs((stamps.second - stamps.first) - (logs.second - logs.first));
+  return difference_ns < kSecond_ns / 2 && stamps.second - stamps.first > kSecond_ns;
+}
+
+std::int64_t MedianDelay(const Times& times) {
+  std::vector<std::int64_t> delays_ns;
+  for (const MessageTime* time : times) delays_ns.push_back(time->log_ns - time->stamp_ns);
+  const auto middle = delays_ns.begin() + static_cast<std::ptrdiff_t>(delays_ns.size() / 2);
+  std::nth_element(delays_ns.begin(), middle, delays_ns.end());
   return *middle;
+}
+
+/// Whether the stamps of two topics are not of one clock.
+bool AreOfTwoClocks(const Times& a, const Times& b) {
+  if (IsRealTime(a) && IsRealTime(b)) {
+    return std::llabs(MedianDelay(a) - MedianDelay(b)) > kSecond_ns;
+  }
+  const std::int64_t stamps_ns =
+      GapBetween(RangeOf(a, &MessageTime::stamp_ns), RangeOf(b, &MessageTime::stamp_ns));
+  const std::int64_t logs_ns =
+      GapBetween(RangeOf(a, &MessageTime::log_ns), RangeOf(b, &MessageTime::log_ns));
+  // Played at another rate the gaps differ, but do not lie in another decade.
+  return stamps_ns > kSecond_ns + 1000 * logs_ns;
 }
 
 /// Why the stamps cannot be used; nullopt: they can.
@@ -75,7 +159,7 @@ std::optional<std::string> FaultOfStamps(const std::map<std::string, Times>& top
   }
   for (const auto& [name, times] : topics) {
     const auto& [first_name, first] = *topics.begin();
-    if (std::llabs(ClockDifference(times, first)) > kSecond_ns) {
+    if (AreOfTwoClocks(times, first)) {
       return "the stamps of the " + name + " are of another clock than those of the " + first_name;
     }
   }
@@ -84,14 +168,17 @@ std::optional<std::string> FaultOfStamps(const std::map<std::string, Times>& top
 
 template <typename Items>
 void OrderByTime(Items* items) {
-  std::stable_sort(items->begin(), items->end(),
-                   [](const auto& a, const auto& b) { return a.time.t_ns < b.time.t_ns; });
+  std::stable_sort(items->begin(), items->end(), [](const auto& a, const auto& b) {
+    return std::pair(a.time.segment, a.time.t_ns) < std::pair(b.time.segment, b.time.t_ns);
+  });
 }
 
 template <typename Items>
 std::size_t KeepFirstOfEachTime(Items* items) {
   const std::size_t before = items->size();
-  const auto same = [](const auto& a, const auto& b) { return a.time.t_ns == b.time.t_ns; };
+  const auto same = [](const auto& a, const auto& b) {
+    return a.time.segment == b.time.segment && a.time.t_ns == b.time.t_ns;
+  };
   items->erase(std::unique(items->begin(), items->end(), same), items->end());
   return before - items->size();
 }
@@ -100,6 +187,7 @@ std::size_t KeepFirstOfEachTime(Items* items) {
 
 std::int64_t ChooseClock(CollectedTopics* topics, std::vector<std::string>* notes) {
   const std::map<std::string, Times> sampled = SampledTimes(topics);
+  for (const auto& [name, times] : sampled) SetSegments(times, topics->segments);
   const auto fault = FaultOfStamps(sampled);
   if (fault) notes->push_back(*fault + ": the times are those at which messages were recorded");
   const auto clock = [&](const MessageTime& time) { return fault ? time.log_ns : time.stamp_ns; };
@@ -119,6 +207,7 @@ std::int64_t ChooseClock(CollectedTopics* topics, std::vector<std::string>* note
       if (time->log_ns <= phase.time.log_ns) before = time;
     }
     phase.time.t_ns = before->t_ns + phase.time.log_ns - before->log_ns;
+    phase.time.segment = before->segment;
   }
   OrderByTime(&topics->depth);
   OrderByTime(&topics->color);

@@ -80,7 +80,8 @@ std::string CheckJoint(const CollectedJoint& joint) {
 }
 
 /// Rows of several publishers at one time are one.
-using JointRows = std::map<std::int64_t, std::map<std::string, CollectedJoint>>;
+using RowTime = std::pair<int, std::int64_t>;  // segment, t_ns
+using JointRows = std::map<RowTime, std::map<std::string, CollectedJoint>>;
 
 JointRows RowsOf(const CollectedTopics& topics, const std::map<std::string, std::string>& cables,
                  const TopicRoles& roles) {
@@ -98,9 +99,9 @@ JointRows RowsOf(const CollectedTopics& topics, const std::map<std::string, std:
                          "phases");
       }
       if (cable != cables.end()) joint.name = cable->second;
-      rows[set.time.t_ns].emplace(joint.name, joint);
+      rows[{set.time.segment, set.time.t_ns}].emplace(joint.name, joint);
     }
-    rows[set.time.t_ns];
+    rows[{set.time.segment, set.time.t_ns}];
   }
   return rows;
 }
@@ -109,18 +110,18 @@ JointRows RowsOf(const CollectedTopics& topics, const std::map<std::string, std:
 experiment::Actuation TableOf(const JointRows& rows) {
   experiment::Actuation table;
   std::vector<std::string> cables;
-  for (const auto& [t_ns, joints] : rows) {
+  for (const auto& [time, joints] : rows) {
     for (const auto& [name, joint] : joints) {
       if (!IndexOf(name, cables)) cables.push_back(name);
     }
-    table.t_s.push_back(TableTime(t_ns));
+    table.t_s.push_back(TableTime(time.second));
   }
   const auto add = [&](const std::string& cable, CableQuantity quantity,
                        std::optional<double> CollectedJoint::*input) {
     experiment::CableColumn column{
         .cable = cable, .quantity = quantity, .samples = {}, .where = {}};
     bool any = false;
-    for (const auto& [t_ns, joints] : rows) {
+    for (const auto& [time, joints] : rows) {
       const auto joint = joints.find(cable);
       column.samples.push_back(joint == joints.end() ? std::nullopt : joint->second.*input);
       any = any || column.samples.back().has_value();
@@ -141,8 +142,8 @@ experiment::Actuation RowsWithin(const experiment::Actuation& all, const JointRo
   part.columns = all.columns;
   for (experiment::CableColumn& column : part.columns) column.samples.clear();
   std::size_t row = 0;
-  for (const auto& [t_ns, joints] : rows) {
-    if (phase.Contains(t_ns)) {
+  for (const auto& [time, joints] : rows) {
+    if (phase.Contains(time.second, time.first)) {
       part.t_s.push_back(all.t_s[row]);
       for (std::size_t i = 0; i < all.columns.size(); ++i) {
         part.columns[i].samples.push_back(all.columns[i].samples[row]);
@@ -184,7 +185,7 @@ void AddMarkers(const CollectedTopics& topics, const Phase& phase, const MarkerF
   experiment::MarkerTracks tracks;
   std::vector<const CollectedMarkers*> used;
   for (const CollectedMarkers& set : topics.markers) {
-    if (!phase.Contains(set.time.t_ns) || set.markers.empty()) continue;
+    if (!phase.Contains(set.time.t_ns, set.time.segment) || set.markers.empty()) continue;
     const MeasuredIn measured = FrameOfMarkers(set, frames, topics.transforms);
     if (used.empty()) recording->frame = measured.frame;
     if (recording->frame != measured.frame) {
@@ -218,7 +219,10 @@ void AddMarkers(const CollectedTopics& topics, const Phase& phase, const MarkerF
 void AddActuation(const CollectedTopics& topics, const Phase& phase,
                   const std::map<std::string, std::string>& cables, const TopicRoles& roles,
                   experiment::Recording* recording) {
-  const JointRows rows = RowsOf(topics, cables, roles);
+  JointRows rows = RowsOf(topics, cables, roles);
+  if (phase.segment != Phase::kAnySegment) {
+    std::erase_if(rows, [&](const auto& row) { return row.first.first != phase.segment; });
+  }
   const experiment::Actuation all = TableOf(rows);
   if (!all.columns.empty()) recording->actuation = RowsWithin(all, rows, phase);
 }
@@ -237,6 +241,7 @@ void AddLoads(const CollectedTopics& topics, const Phase& phase, const PhaseFile
   };
   for (const CollectedWrench& wrench : topics.wrenches) {
     const std::int64_t t_ns = wrench.time.t_ns;
+    if (phase.segment != Phase::kAnySegment && phase.segment != wrench.time.segment) continue;
     if (t_ns > phase.end_ns) break;
     // What acted before the stretch acts from its begin on.
     if (t_ns > last_ns) write(last_ns);

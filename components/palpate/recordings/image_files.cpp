@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -27,12 +28,12 @@ namespace fs = std::filesystem;
 /// A message by what does not change: stamp and log time.
 using MessageKey = std::pair<std::int64_t, std::int64_t>;
 /// By message: the time that names its file.
-using FileTimes = std::map<MessageKey, std::int64_t>;
+using FileTimes = std::map<MessageKey, MessageTime>;
 
 FileTimes NamedByOwnTime(const std::vector<CollectedImage>& images) {
   FileTimes times;
   for (const CollectedImage& image : images) {
-    times[{image.time.stamp_ns, image.time.log_ns}] = image.time.t_ns;
+    times[{image.time.stamp_ns, image.time.log_ns}] = image.time;
   }
   return times;
 }
@@ -55,15 +56,19 @@ FileTimes PairColor(const CollectedTopics& topics) {
   auto color = topics.color.begin();
   for (const CollectedImage& depth : topics.depth) {
     const auto distance = [&](const CollectedImage& image) {
-      return std::llabs(image.time.t_ns - depth.time.t_ns);
+      return image.time.segment == depth.time.segment
+                 ? std::llabs(image.time.t_ns - depth.time.t_ns)
+                 : std::numeric_limits<long long>::max();
     };
+    while (color != topics.color.end() && color->time.segment < depth.time.segment) ++color;
     while (color != topics.color.end() && color + 1 != topics.color.end() &&
+           (color + 1)->time.segment == color->time.segment &&
            distance(*(color + 1)) <= distance(*color)) {
       ++color;
     }
     if (color == topics.color.end()) break;
     if (distance(*color) > most_ns) continue;
-    times[{color->time.stamp_ns, color->time.log_ns}] = depth.time.t_ns;
+    times[{color->time.stamp_ns, color->time.log_ns}] = depth.time;
     ++color;
   }
   return times;
@@ -104,10 +109,12 @@ class ImageWriter {
                   const char* folder, const char* extension) {
     const auto found = times->find({StampOf(message, type), message.log_time_ns});
     if (found == times->end()) return {};
-    const std::int64_t t_ns = found->second;
+    const std::int64_t t_ns = found->second.t_ns;
+    const int segment = found->second.segment;
     times->erase(found);  // a message that is there twice is written once
     for (const Stretch& stretch : stretches_) {
       if (t_ns < stretch.begin_ns || t_ns > stretch.end_ns) continue;
+      if (stretch.segment >= 0 && stretch.segment != segment) continue;
       experiment::CreateFolder(stretch.folder / folder);
       return stretch.folder / folder / (std::to_string(t_ns) + extension);
     }

@@ -16,6 +16,7 @@ namespace palpate::command {
 struct Stretch {
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
+  int segment = -1;  ///< Phase::segment
   std::filesystem::path folder;
 };
 

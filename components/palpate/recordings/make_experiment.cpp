@@ -44,43 +44,37 @@ std::vector<Phase> PhasesOfTopic(const CollectedTopics& topics) {
   std::vector<Phase> phases;
   bool open = false;
   for (const CollectedPhase& word : topics.phases) {
-    if (open) phases.back().end_ns = word.time.t_ns - 1;
+    if (open && word.time.segment == phases.back().segment) {
+      phases.back().end_ns = word.time.t_ns - 1;
+    }
     auto recording = ParsePhase(word.text);
     open = recording.has_value();
     if (!open) continue;
     const std::string name = recording->name.empty() ? ToString(recording->kind) : recording->name;
     recording->name = Numbered(phases.size() + 1, name);
-    phases.push_back({.recording = std::move(*recording), .begin_ns = word.time.t_ns});
+    phases.push_back({.recording = std::move(*recording),
+                      .begin_ns = word.time.t_ns,
+                      .segment = word.time.segment});
   }
   return phases;
 }
 
-/// Recordings that were played: their name stands in the messages of markers.
-std::vector<Phase> PhasesOfMarkers(const CollectedTopics& topics) {
+/// Recordings that were played, one after the other.
+std::vector<Phase> PhasesOfSegments(const CollectedTopics& topics) {
   std::vector<Phase> phases;
-  std::vector<std::int64_t> last_ns;
-  for (const CollectedMarkers& frame : topics.markers) {
-    if (phases.empty() || phases.back().recording.name != frame.recording) {
-      phases.push_back({});
-      phases.back().recording.name = frame.recording;
-      phases.back().begin_ns = frame.time.t_ns;
-      last_ns.push_back(frame.time.t_ns);
-    }
-    last_ns.back() = frame.time.t_ns;
-  }
-  if (phases.size() < 2 && (phases.empty() || phases.front().recording.name.empty())) return {};
   bool sorted = true;
-  for (std::size_t i = 0; i + 1 < phases.size(); ++i) {
-    const std::int64_t middle_ns = last_ns[i] + (phases[i + 1].begin_ns - last_ns[i]) / 2;
-    phases[i].end_ns = middle_ns;
-    phases[i + 1].begin_ns = middle_ns + 1;
-    sorted = sorted && phases[i].recording.name < phases[i + 1].recording.name;
+  for (const Segment& segment : topics.segments) {
+    Phase phase;
+    phase.recording.name = FolderName(segment.name);
+    phase.segment = static_cast<int>(phases.size());
+    sorted = sorted && !segment.name.empty() &&
+             (phases.empty() || phases.back().recording.name < phase.recording.name);
+    phases.push_back(std::move(phase));
   }
-  phases.front().begin_ns = Phase{}.begin_ns;
-  phases.back().end_ns = Phase{}.end_ns;
+  if (sorted) return phases;
   for (std::size_t i = 0; i < phases.size(); ++i) {
     std::string& name = phases[i].recording.name;
-    name = sorted ? FolderName(name) : Numbered(i + 1, name);
+    name = Numbered(i + 1, name.empty() ? "free" : name);
   }
   return phases;
 }
@@ -140,14 +134,16 @@ class ExperimentMaker {
     if (!file_.phases.empty()) {
       notes_.push_back(std::to_string(file_.phases.size()) + " recording(s) as " +
                        file_.file.string() + " says");
-      return file_.phases;
+      std::vector<Phase> named = file_.phases;
+      for (Phase& phase : named) phase.segment = SegmentOf(phase.recording.name);
+      return named;
     }
     std::vector<Phase> phases = PhasesOfTopic(topics_);
     if (!phases.empty()) {
       notes_.push_back(std::to_string(phases.size()) + " recording(s) as " + kPhaseTopic + " says");
       return phases;
     }
-    phases = PhasesOfMarkers(topics_);
+    phases = PhasesOfSegments(topics_);
     if (phases.empty()) phases = {Phase{}};
     if (phases.front().recording.name.empty()) {
       phases.front().recording.name = FolderName(target_.stem().string());
@@ -155,6 +151,14 @@ class ExperimentMaker {
     notes_.push_back(std::to_string(phases.size()) + " recording(s) of kind free: neither " +
                      kPhaseTopic + " nor " + PhaseFileOf(target_).string() + " names another");
     return phases;
+  }
+
+  /// The segment of the played recording of that name, if there is one.
+  int SegmentOf(const std::string& name) const {
+    for (std::size_t i = 0; i < topics_.segments.size(); ++i) {
+      if (topics_.segments[i].name == name) return static_cast<int>(i);
+    }
+    return Phase::kAnySegment;
   }
 
   void FillExperiment() {
@@ -177,7 +181,7 @@ class ExperimentMaker {
     AddActuation(topics_, phase, file_.cables, roles_, &recording);
     AddLoads(topics_, phase, file_, roles_, &recording, &notes_);
     const auto inside = [&](const CollectedImage& image) {
-      return phase.Contains(image.time.t_ns);
+      return phase.Contains(image.time.t_ns, image.time.segment);
     };
     const bool has_images = std::any_of(topics_.depth.begin(), topics_.depth.end(), inside) ||
                             std::any_of(topics_.points.begin(), topics_.points.end(), inside);
@@ -187,7 +191,7 @@ class ExperimentMaker {
       return;
     }
     recording.folder = out_ / "recordings" / recording.name;
-    stretches_.push_back({phase.begin_ns, phase.end_ns, recording.folder});
+    stretches_.push_back({phase.begin_ns, phase.end_ns, phase.segment, recording.folder});
     with_images_.push_back(has_images);
     experiment_.recordings.push_back(std::move(recording));
   }

@@ -26,8 +26,9 @@ const KeyTable& PhaseKeys() {
                        "these.",
                    .keys = experiment::RecordingKeys().keys};
     table.keys.push_back({"name", value::Text(), kRequired, "Name of the recording."});
-    table.keys.push_back({"window_s", value::Numbers({}, 2, 2), kRequired,
-                          "`[begin, end]` on the clock of `t_s`, begin < end."});
+    table.keys.push_back({"window_s", value::Numbers({}, 2, 2), kOptional,
+                          "`[begin, end]` on the clock of `t_s`, begin < end. Absent: all, or the "
+                          "played recording of that name."});
     return table;
   }();
   return keys;
@@ -62,10 +63,11 @@ Phase ReadPhase(const ConfigNode& node, const fs::path& file) {
   const bool plain = !phase.recording.name.empty() && phase.recording.name.front() != '.' &&
                      phase.recording.name.find_first_of("/\\") == std::string::npos;
   if (!plain) Refuse(reader.Require("name"), "must be the name of a folder");
-  const ConfigNode& window = reader.Require("window_s");
-  const std::vector<double> limits_s = ReadNumbers(window);
+  const ConfigNode* window = reader.Optional("window_s");
+  if (window == nullptr) return phase;
+  const std::vector<double> limits_s = ReadNumbers(*window);
   if (limits_s.size() != 2 || limits_s[0] >= limits_s[1]) {
-    Refuse(window, "must be [begin, end] with begin < end");
+    Refuse(*window, "must be [begin, end] with begin < end");
   }
   phase.begin_ns = std::llround(limits_s[0] * 1e9);
   phase.end_ns = std::llround(limits_s[1] * 1e9);
@@ -78,7 +80,11 @@ std::vector<Phase> ReadPhases(const ConfigNode& node, const fs::path& file) {
     phases.push_back(ReadPhase(item, file));
     if (phases.size() < 2) continue;
     const Phase& before = phases[phases.size() - 2];
-    if (phases.back().begin_ns < before.end_ns) Refuse(item, "begins before the one above ends");
+    const bool have_windows =
+        phases.back().begin_ns != Phase{}.begin_ns && before.end_ns != Phase{}.end_ns;
+    if (have_windows && phases.back().begin_ns < before.end_ns) {
+      Refuse(item, "begins before the one above ends");
+    }
     if (phases.back().recording.name <= before.recording.name) {
       Refuse(item, "name '" + phases.back().recording.name + "' must come after '" +
                        before.recording.name +

@@ -22,8 +22,12 @@ struct Phase {
   experiment::Recording recording;                                   ///< name and settings
   std::int64_t begin_ns = std::numeric_limits<std::int64_t>::min();  ///< on the clock of t_s
   std::int64_t end_ns = std::numeric_limits<std::int64_t>::max();    ///< included
+  int segment = kAnySegment;                                         ///< with stamps of its own
 
-  bool Contains(std::int64_t t_ns) const { return t_ns >= begin_ns && t_ns <= end_ns; }
+  static constexpr int kAnySegment = -1;
+  bool Contains(std::int64_t t_ns, int of_segment) const {
+    return t_ns >= begin_ns && t_ns <= end_ns && (segment == kAnySegment || segment == of_segment);
+  }
 };
 
 /// The file of phases beside a recording, and what it says about the topics.

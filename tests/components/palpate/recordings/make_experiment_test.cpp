@@ -295,6 +295,37 @@ TEST_F(MakeExperimentTest, RulesThatFitNothingAreRefused) {
               HasSubstr("did you mean '/camera/depth/image_raw'?"));
 }
 
+TEST_F(MakeExperimentTest, PlayedRecordingsKeepTheirNamesAndTimes) {
+  // Both begin at 0 and have the same stamps.
+  std::int64_t log_ns = kStart_ns;
+  for (const char* name : {"a", "b"}) {
+    for (int i = 0; i < 3; ++i, log_ns += kStep_ns) {
+      Cdr markers;
+      markers.Stamp(i * kStep_ns, "robot").Put(std::uint64_t(i)).Text(name).Put(std::uint8_t{1});
+      markers.Put(std::uint32_t{1}).Text("m").Array<double>({0.1, 0.2, 0.1 * i, 1e-3, 1e-3, 1e-3});
+      markers.Array<double>(std::vector<double>(9)).Put(std::uint8_t{1});
+      messages_.Add("/perception/markers", "palpate_msgs/msg/MarkerArray3", log_ns, markers);
+      Cdr joints;
+      joints.Stamp(i * kStep_ns, "").Put(std::uint32_t{1}).Text("north");
+      joints.List<double>({0.01 * i}).List<double>({}).List<double>({name[0] == 'a' ? 1.0 : 2.0});
+      messages_.Add("/robot/joint_states", "sensor_msgs/msg/JointState", log_ns, joints);
+    }
+  }
+  const auto experiment = Make();
+  ASSERT_EQ(experiment.recordings.size(), 2u);
+  EXPECT_EQ(experiment.markers_sigma_m, Eigen::Vector3d::Constant(1e-3));
+  for (const std::size_t r : {0u, 1u}) {
+    const auto& recording = experiment.recordings[r];
+    EXPECT_EQ(recording.name, r == 0 ? "a" : "b");
+    EXPECT_THAT(recording.actuation->t_s, ElementsAre(0.0, 0.1, 0.2));
+    EXPECT_EQ(recording.actuation->columns[1].samples[2], r == 0 ? 1.0 : 2.0);
+    ASSERT_EQ(recording.markers->frames.size(), 3u);
+    EXPECT_EQ(recording.markers->frames[2].positions_m[0], Eigen::Vector3d(0.1, 0.2, 0.2));
+    ASSERT_TRUE(recording.reference);
+    EXPECT_EQ(recording.reference->window_s.end_s, 0.2);
+  }
+}
+
 TEST_F(MakeExperimentTest, StampsOfTwoClocksAreReplacedByTheTimesOfRecording) {
   AddDepthInfo();
   for (int i = 0; i < 3; ++i) AddDepth(i);
