@@ -25,7 +25,7 @@ struct Command : app::NodeCommand<NodeConfig> {
   // Of experiment folders.
   std::string recording;  ///< empty: all
   bool images = false;    ///< instead of markers
-  // Of MCAP recordings.
+  // Of message files.
   std::vector<std::string> topics;
   std::vector<std::string> excluded;
   bool paused = false;

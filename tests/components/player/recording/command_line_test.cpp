@@ -48,10 +48,10 @@ class PlayCommand : public testing::Test {
 };
 
 TEST_F(PlayCommand, TakesAFileAFolderOfFilesOrAnExperiment) {
-  EXPECT_EQ(Read({Mcap()})->mcap_files.size(), 1u);
-  EXPECT_EQ(Read({"--data", Mcap()})->mcap_files.size(), 1u);
-  EXPECT_EQ(Read({(folder_ / "split").string()})->mcap_files.size(), 2u);
-  EXPECT_TRUE(Read({Experiment(), "--images"})->mcap_files.empty());
+  EXPECT_EQ(Read({Mcap()})->message_files.size(), 1u);
+  EXPECT_EQ(Read({"--data", Mcap()})->message_files.size(), 1u);
+  EXPECT_EQ(Read({(folder_ / "split").string()})->message_files.size(), 2u);
+  EXPECT_TRUE(Read({Experiment(), "--images"})->message_files.empty());
 }
 
 TEST_F(PlayCommand, RefusesWhatDoesNotFitTogether) {
@@ -60,7 +60,7 @@ TEST_F(PlayCommand, RefusesWhatDoesNotFitTogether) {
   EXPECT_THAT(Refusal({Mcap(), "--rate", "0"}), HasSubstr("must be above 0, not 0"));
   EXPECT_THAT(Refusal({Mcap(), "--rate", "2", "--step"}), HasSubstr("only one of --rate"));
   EXPECT_THAT(Refusal({Mcap(), "--images"}), HasSubstr("--images is for experiment folders"));
-  EXPECT_THAT(Refusal({Experiment(), "--pause"}), HasSubstr("--pause is for MCAP recordings"));
+  EXPECT_THAT(Refusal({Experiment(), "--pause"}), HasSubstr("--pause is for MCAP and .db3 files"));
   EXPECT_THAT(Refusal({Mcap(), "--start", "-1"}), HasSubstr("--start: must be 0 or above"));
   EXPECT_THAT(Refusal({Mcap(), "--start", "3", "--end", "2"}), HasSubstr("behind --start"));
   EXPECT_THAT(Refusal({Mcap(), "--duration", "3", "--end", "2"}), HasSubstr("only one of --end"));
