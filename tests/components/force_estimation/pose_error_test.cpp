@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
@@ -127,6 +128,50 @@ TEST(PoseError, IsNoContact) {
     }
     EXPECT_EQ(found, 0) << contacts.size();
     EXPECT_GE(found_where_exact, kDraws / 2) << contacts.size();
+  }
+}
+
+/// A marker that is off by far more than its noise makes a search find something, whose interval
+/// then holds zero. That is no contact-free frame.
+TEST(PoseError, BelowTheNoiseExplainsNoContact) {
+  const auto model = Build(BeamRobot());
+  MarkerFrame frame = FrameUnder(*model, {}, {});
+  frame.markers[6].position_m.y() += 8e-3;
+  MarkerForceEstimator exact(*model, WithContacts({}));
+  const ForceEstimate expected = exact.Update(frame);
+  ASSERT_EQ(expected.status.code(), StatusCode::kOk);
+  for (const ContactForce& contact : expected.contacts) {
+    ASSERT_EQ(contact.status.code(), StatusCode::kNoContact);
+  }
+  const auto code_with = [&](const PoseError& error) {
+    frame.pose_error = error;
+    MarkerForceEstimator estimator(*model, WithContacts({}));
+    return estimator.Update(frame).status.code();
+  };
+  PoseError tiny = kPoseError;
+  tiny.translation_sigma_m = tiny.rotation_sigma_rad = 1e-6;
+  EXPECT_EQ(code_with(tiny), StatusCode::kOk);
+  EXPECT_EQ(code_with(kPoseError), StatusCode::kNoContact);
+}
+
+/// The fitter holds the last candidates that it tried, not those that the search chose.
+TEST(PoseError, WidensWhereContactsAreSearched) {
+  const auto model = Build(BeamRobot());
+  for (const double force_N : {0.5, 2.0}) {
+    MarkerFrame frame =
+        FrameUnder(*model, {}, {LoadAt(*model, kPushed_m, 0.005, {0.0, 0.0, -force_N})});
+    MarkerForceEstimator exact(*model, WithContacts({}));
+    const ForceEstimate expected = exact.Update(frame);
+    frame.pose_error = kSmallPoseError;
+    MarkerForceEstimator estimator(*model, WithContacts({}));
+    const ForceEstimate& estimate = estimator.Update(frame);
+    ASSERT_EQ(estimate.contacts.size(), expected.contacts.size()) << force_N;
+    for (std::size_t c = 0; c < estimate.contacts.size(); ++c) {
+      EXPECT_GT(estimate.contacts[c].covariance_N2.trace(),
+                expected.contacts[c].covariance_N2.trace())
+          << force_N;
+    }
+    EXPECT_EQ(estimator.Misfit().response_m.cols(), 3 * std::ssize(estimate.contacts)) << force_N;
   }
 }
 
