@@ -28,6 +28,8 @@ using force_estimation::RestMarkers;
 
 namespace {
 
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
 /// Where the robot's markers are at rest.
 struct RobotMarkers {
   std::vector<std::string> names;
@@ -137,7 +139,17 @@ void RequireAgreement(const RestMarkers& pairs, RestAgreement agreement) {
   if (!status.ok()) throw InputError(status.message());
 }
 
-Eigen::Isometry3d Register(const RestMarkers& pairs, std::ostream& report) {
+/// From the residuals; along and about the axis where it is largest. Never 0: residuals of a
+/// simulation may be, and no pose is exact.
+geometry::PoseStandardError ErrorOf(const geometry::Registration& registration) {
+  constexpr double kLeast = 1e-6;  // m, rad
+  const Eigen::Matrix<double, 6, 1> error = registration.covariance.diagonal().cwiseSqrt();
+  return {.translation_m = std::max(kLeast, error.tail<3>().maxCoeff()),
+          .rotation_rad = std::max(kLeast, error.head<3>().maxCoeff())};
+}
+
+/// Sets the pose and its standard error.
+void Register(const RestMarkers& pairs, std::ostream& report, experiment::Recording* recording) {
   RequireAgreement(pairs, RestAgreement::kShape);
   const geometry::Registration result = geometry::RegisterRigid(pairs.measured_m, pairs.model_m);
   if (!result.status.ok()) {
@@ -150,8 +162,12 @@ Eigen::Isometry3d Register(const RestMarkers& pairs, std::ostream& report) {
     report << fmt::format("  {:<16} residual {:.3f} mm\n", pairs.names[At(i)],
                           1e3 * (mapped_m.col(i) - pairs.model_m.col(i)).norm());
   }
-  return Eigen::Translation3d(result.T_target_source.translation_m()) *
-         result.T_target_source.rotation();
+  const geometry::PoseStandardError error = ErrorOf(result);
+  report << fmt::format("standard error of the pose: {:.2f} mm, {:.2f} degrees\n",
+                        1e3 * error.translation_m, kDegreesPerRadian * error.rotation_rad);
+  recording->T_robot_camera = Eigen::Translation3d(result.T_target_source.translation_m()) *
+                              result.T_target_source.rotation();
+  recording->T_robot_camera_error = error;
 }
 
 /// Of markers whose pose is known or not to be estimated.
@@ -187,7 +203,7 @@ void PlaceMarkers(const ImportOptions& options, std::ostream& report,
   const RobotMarkers robot = MarkersAtRest(options, *recording, *window, report);
   const RestMarkers pairs = PairMarkers(options, *recording, *window, robot);
   if (options.register_to_robot) {
-    recording->T_robot_camera = Register(pairs, report);
+    Register(pairs, report, recording);
   } else {
     CheckPlace(*recording, options, pairs);
   }

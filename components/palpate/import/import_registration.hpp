@@ -11,7 +11,7 @@
 namespace palpate::command {
 
 /// Compares the markers at rest with the robot's, and with --register estimates
-/// recording->T_robot_camera first.
+/// recording->T_robot_camera and its standard error first.
 ///
 /// At rest: the mean over the rest window, or over the whole recording of kind rest; with
 /// --register without a rest window over the whole recording, of markers that do not move. The

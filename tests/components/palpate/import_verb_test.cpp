@@ -228,6 +228,18 @@ TEST_F(ImportAtRestTest, RegistersAgainstTheComputedEquilibrium) {
   EXPECT_LT(origin_m.norm(), 1e-6);
 }
 
+/// Of three markers 0.1 m from the origin; the capture's own origin is 0.3 m off.
+TEST_F(ImportAtRestTest, StatesHowWellThePoseIsKnown) {
+  WriteCapture({"a", "b", "c"}, 0.0, [](const Eigen::Vector3d& at_m) {
+    return YUp(1.01 * at_m);  // 1 mm each
+  });
+  const auto found = Import();
+  const auto error = PoseErrorOf(found, found.recordings.at(0));
+  EXPECT_THAT(report_.str(), HasSubstr("standard error of the pose"));
+  EXPECT_THAT(error.rotation_rad, AllOf(Gt(1e-3), Lt(2e-2)));
+  EXPECT_THAT(error.translation_m, AllOf(Gt(0.3 * error.rotation_rad), Lt(5e-3)));
+}
+
 TEST_F(ImportAtRestTest, StoresTheNoiseThatItMeasures) {
   WriteCapture({"a", "b", "c"}, 2e-4, YUp);
   const auto sigma_m = Import().markers_sigma_m;
