@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <iterator>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -43,6 +44,9 @@ struct Robot {
   Eigen::Vector3d clamp_normal;  ///< of the plane from which that counts, through the clamp
   double clamp_at_mm;
   SurfacePoint tip;  ///< where weights lie
+  /// Largest cosine of a contact's normal with clamp_normal. A push along a bar shortens it by less
+  /// than the depth noise: EA / L is 2 200 to 2 500 N/m, so that 1 N shows as 0.4 mm.
+  double most_along = 1.0;
 };
 
 SurfacePoint Highest(const CalculixBody& body, const Eigen::Vector2d& at_mm) {
@@ -100,7 +104,8 @@ Robot Rod() {
           .lowest_touch_mm = 40.0,
           .clamp_normal = Eigen::Vector3d::UnitX(),
           .clamp_at_mm = -100.0,
-          .tip = tip};
+          .tip = tip,
+          .most_along = 0.5};
 }
 
 Robot Finger() {
@@ -114,7 +119,8 @@ Robot Finger() {
           .lowest_touch_mm = 40.0,
           .clamp_normal = Eigen::Vector3d::UnitZ(),
           .clamp_at_mm = 0.0,
-          .tip = tip};
+          .tip = tip,
+          .most_along = 0.5};
 }
 
 Robot RobotOf(const std::string& name) {
@@ -187,6 +193,7 @@ class Maker {
       const double facing = normal.dot(to_eye);
       if (seen ? facing < 0.35 || !IsSeen(kMm * x) : facing > -0.3) continue;
       if (!seen && normal.z() < -0.5) continue;
+      if (std::abs(normal.dot(robot_.clamp_normal)) > robot_.most_along) continue;
       const bool apart = std::all_of(taken_mm.begin(), taken_mm.end(),
                                      [&](const auto& t) { return (t - x).norm() > 40.0; });
       // A ball comes there: nothing of the body is nearer than its radius.
@@ -199,27 +206,52 @@ class Maker {
     return std::nullopt;
   }
 
-  /// Equilibrium under tensions that follow the eyelets.
+  /// Equilibrium under tensions that follow the eyelets: a fixed point of their places, by Aitken's
+  /// relaxation. Throws std::runtime_error where there is none, or where they do not come to rest.
   Positions Solve(const CalculixBody::Loads& loads, const Eigen::VectorXd& tension_N) const {
-    Positions positions = robot_.body.nodes_mm();
-    const int rounds = tension_N.size() > 0 && tension_N.maxCoeff() > 0.0 ? 3 : 1;
-    for (int round = 0; round < rounds; ++round) {
+    constexpr double kAtRest_mm = 0.03;
+    constexpr int kMostRounds = 12;
+    const bool pulled = tension_N.size() > 0 && tension_N.maxCoeff() > 0.0;
+    Eigen::VectorXd at_mm = Eyelets_mm(robot_.body.nodes_mm());
+    Eigen::VectorXd last_step_mm = Eigen::VectorXd::Zero(at_mm.size());
+    double relaxation = 1.0;
+    for (int round = 0; round < kMostRounds; ++round) {
       CalculixBody::Loads all = loads;
-      for (std::size_t c = 0; c < robot_.cables.size(); ++c) {
-        const auto weights = robot_.body.WeightsInside(robot_.cables[c].eyelet_mm);
-        Eigen::Vector3d eyelet = Eigen::Vector3d::Zero();
-        for (const auto& [node, w] : weights) {
-          eyelet += w * positions[static_cast<std::size_t>(node)];
-        }
-        const Eigen::Vector3d pull = tension_N[static_cast<Eigen::Index>(c)] *
-                                     (robot_.cables[c].anchor_mm - eyelet).normalized();
-        for (const auto& [node, w] : weights) {
-          all.try_emplace(node, Eigen::Vector3d::Zero()).first->second += w * pull;
-        }
-      }
-      positions = robot_.body.Solve(all);
+      AddPulls(at_mm, tension_N, &all);
+      Positions positions = robot_.body.Solve(all);
+      const Eigen::VectorXd step_mm = Eyelets_mm(positions) - at_mm;
+      if (!pulled || step_mm.lpNorm<Eigen::Infinity>() < kAtRest_mm) return positions;
+      const Eigen::VectorXd change_mm = step_mm - last_step_mm;
+      if (round > 0) relaxation *= -last_step_mm.dot(change_mm) / change_mm.squaredNorm();
+      at_mm += relaxation * step_mm;
+      last_step_mm = step_mm;
     }
-    return positions;
+    throw std::runtime_error("the cables' eyelets do not come to rest");
+  }
+
+  void AddPulls(const Eigen::VectorXd& eyelets_mm, const Eigen::VectorXd& tension_N,
+                CalculixBody::Loads* loads) const {
+    for (std::size_t c = 0; c < robot_.cables.size(); ++c) {
+      const auto index = static_cast<Eigen::Index>(c);
+      const Eigen::Vector3d along_mm =
+          robot_.cables[c].anchor_mm - eyelets_mm.segment<3>(3 * index);
+      for (const auto& [node, w] : robot_.body.WeightsInside(robot_.cables[c].eyelet_mm)) {
+        loads->try_emplace(node, Eigen::Vector3d::Zero()).first->second +=
+            w * tension_N[index] * along_mm.normalized();
+      }
+    }
+  }
+
+  /// [3 cables]
+  Eigen::VectorXd Eyelets_mm(const Positions& positions_mm) const {
+    Eigen::VectorXd eyelets_mm = Eigen::VectorXd::Zero(3 * std::ssize(robot_.cables));
+    for (std::size_t c = 0; c < robot_.cables.size(); ++c) {
+      for (const auto& [node, w] : robot_.body.WeightsInside(robot_.cables[c].eyelet_mm)) {
+        eyelets_mm.segment<3>(3 * static_cast<Eigen::Index>(c)) +=
+            w * positions_mm[static_cast<std::size_t>(node)];
+      }
+    }
+    return eyelets_mm;
   }
 
   struct Touch {

@@ -35,13 +35,17 @@ struct Score {
   int found = 0;  ///< within kSamePlace_m, with a force
   int none = 0;   ///< forces where nothing touches
   int covered = 0;
-  std::vector<double> errors;  ///< of |F|, relative
+  std::vector<double> errors;    ///< of |F|, relative
+  std::vector<double> places_m;  ///< errors of them
   std::string missed;
 
-  double Median() const {
-    std::vector<double> sorted = errors;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? std::numeric_limits<double>::infinity() : sorted[sorted.size() / 2];
+  double Median() const { return MedianOf(errors); }
+  double MedianPlace_m() const { return MedianOf(places_m); }
+
+ private:
+  static double MedianOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? std::numeric_limits<double>::infinity() : values[values.size() / 2];
   }
 };
 
@@ -94,6 +98,7 @@ Score ScoreOf(const fs::path& file, const std::vector<TrueContact>& truth) {
       ++score.found;
       score.covered += off_N <= nearest->ci95_N ? 1 : 0;
       score.errors.push_back(off_N / true_N);
+      score.places_m.push_back((nearest->position_m - contact.position_m).norm());
       estimated.erase(nearest);
     }
     score.none += static_cast<int>(estimated.size());
@@ -103,8 +108,8 @@ Score ScoreOf(const fs::path& file, const std::vector<TrueContact>& truth) {
 
 std::ostream& operator<<(std::ostream& stream, const Score& score) {
   return stream << score.found << " of " << score.there << " found, median error "
-                << 100.0 * score.Median() << " %, " << score.covered << " covered, " << score.none
-                << " false; missed:" << score.missed;
+                << 100.0 * score.Median() << " %, place " << 1e3 * score.MedianPlace_m() << " mm, "
+                << score.covered << " covered, " << score.none << " false; missed:" << score.missed;
 }
 
 class TouchedScenes : public testing::TestWithParam<std::string> {
@@ -121,6 +126,8 @@ class TouchedScenes : public testing::TestWithParam<std::string> {
                            .weights = 3,
                            .alone = 1,
                            .frames = 2};
+    // A weight on a standing bar shortens it by less than the depth noise.
+    if (plan.robot == "finger") plan.weights = 0;
     truth_ = WriteTouchedScenes(plan, folder_ / "exp");
     robot_ = plan.robot == "finger"
                  ? WriteFinger(folder_.path())
@@ -168,6 +175,8 @@ TEST_P(TouchedScenes, DefaultCommandsFindTheContactsAndTheirForces) {
   EXPECT_GE(whole.found, whole.there - 1) << whole;
   EXPECT_LE(whole.Median(), 0.06) << whole;
   EXPECT_EQ(whole.none, 0) << whole;
+  EXPECT_GE(whole.covered, 0.9 * whole.found) << whole;
+  EXPECT_LE(whole.MedianPlace_m(), 0.005) << whole;
   RemoveContactFree();
   const Score calibrated = Estimate();
   EXPECT_GE(calibrated.found, whole.found - 1) << calibrated;
