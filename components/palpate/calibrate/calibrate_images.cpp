@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -74,6 +75,26 @@ void Run(const std::vector<ImageSample>& samples, const perception::Config& perc
   RequireFit(found->fit.status);
 }
 
+/// Noise, the facets of the mesh and a sound model's errors leave a chi-squared below the degrees
+/// of freedom. Twice these errors are another body than the model's: the pose is fitted to that,
+/// too.
+void RequirePossible(const ImageCalibration& found) {
+  constexpr double kMostChiSquared = 4.0;
+  const calibration::JointCalibration& joint = found.fit.joint;
+  if (joint.chi_squared <= kMostChiSquared * std::max(1, joint.degrees_of_freedom)) return;
+  std::size_t worst = 0;
+  for (std::size_t f = 1; f < found.frames.size(); ++f) {
+    if (found.fit.matches[f].rms_m > found.fit.matches[worst].rms_m) worst = f;
+  }
+  throw RunError(fmt::format(
+      "the images do not fit the model: chi-squared {:.3g} for {} degrees of freedom, worst in {} "
+      "({:.2f} mm RMS). Likely reasons: something touches the robot in a recording whose kind says "
+      "that nothing does; the cable inputs are not those of the images; another modulus or robot. "
+      "Name the recordings that are sound with --recording",
+      joint.chi_squared, joint.degrees_of_freedom, found.frames[worst].name,
+      1e3 * found.fit.matches[worst].rms_m));
+}
+
 void Print(const ImageCalibration& found) {
   const calibration::JointCalibration& joint = found.fit.joint;
   for (std::size_t f = 0; f < found.frames.size(); ++f) {
@@ -125,6 +146,7 @@ ImageCalibration FitImages(const CalibrateOptions& options,
   kept.Restore();
   const Eigen::Isometry3d nearer = ToIsometry(found.fit.joint.T_robot_camera);
   Run(samples, perception, ShapesOf(samples, nearer, model), nearer, clouds, model, &found);
+  RequirePossible(found);
   return found;
 }
 
