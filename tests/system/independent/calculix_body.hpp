@@ -45,8 +45,7 @@ class CalculixBody {
   Positions Solve(const Loads& loads) const;
 
   const Positions& nodes_mm() const { return nodes_mm_; }
-  const std::vector<std::array<int, 10>>& cells() const { return cells_; }  ///< four corners first
-  const std::vector<std::array<int, 6>>& faces() const { return faces_; }   ///< from outside
+  const std::vector<std::array<int, 6>>& faces() const { return faces_; }  ///< from outside
   Eigen::Vector3d At(const SurfacePoint& point, const Positions& positions_mm) const;
   Eigen::Vector3d NormalAt(const SurfacePoint& point, const Positions& positions_mm) const;
   double AreaOf(std::size_t face) const;

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "libs/rgbd/png.hpp"
-#include "tests/system/independent/finger.hpp"
 
 namespace palpate::test_support {
 
@@ -45,7 +44,7 @@ struct Robot {
   double clamp_at_mm;
   SurfacePoint tip;  ///< where weights lie
   /// Largest cosine of a contact's normal with clamp_normal. A push along a bar shortens it by less
-  /// than the depth noise: EA / L is 2 200 to 2 500 N/m, so that 1 N shows as 0.4 mm.
+  /// than the depth noise: EA / L of the rod is 2 250 N/m, so that 1 N shows as 0.4 mm.
   double most_along = 1.0;
 };
 
@@ -108,26 +107,6 @@ Robot Rod() {
           .most_along = 0.5};
 }
 
-Robot Finger() {
-  CalculixBody body = FingerBody({5, 5, 18});
-  const SurfacePoint tip = Highest(body, {0.0, 0.0});
-  return {.body = std::move(body),
-          .cables = {{"pull", {60, 0, 0}, {13, 0, 90}}},
-          .furniture = {Block({-0.7, -0.7, -0.02}, {0.7, 0.7, -0.0005}, {0.42, 0.47, 0.55})},
-          .eye_m = {0.27, -0.24, 0.22},
-          .target_m = {0.0, 0.0, 0.06},
-          .lowest_touch_mm = 40.0,
-          .clamp_normal = Eigen::Vector3d::UnitZ(),
-          .clamp_at_mm = 0.0,
-          .tip = tip,
-          .most_along = 0.5};
-}
-
-Robot RobotOf(const std::string& name) {
-  if (name == "finger") return Finger();
-  return name == "rod" ? Rod() : FourLeg();
-}
-
 ColoredMesh SkinOf(const CalculixBody& body, const Positions& positions_mm) {
   ColoredMesh mesh{.vertices_m = {}, .triangles = body.Triangles(), .color_rgb = kRobotColor};
   for (const Eigen::Vector3d& x : positions_mm) mesh.vertices_m.push_back(kMm * x);
@@ -139,7 +118,7 @@ class Maker {
   Maker(const TouchedScenesPlan& plan, fs::path folder)
       : plan_(plan),
         folder_(std::move(folder)),
-        robot_(RobotOf(plan.robot)),
+        robot_(plan.robot == "rod" ? Rod() : FourLeg()),
         camera_(plan.camera),
         random_(plan.seed),
         rest_({SkinOf(robot_.body, robot_.body.nodes_mm())}) {

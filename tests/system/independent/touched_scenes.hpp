@@ -16,7 +16,7 @@ namespace palpate::test_support {
 
 /// Static scenes to be made. Each is one recording.
 struct TouchedScenesPlan {
-  std::string robot = "four_leg";  ///< or "rod", both of config/robots, or "finger" (finger.hpp)
+  std::string robot = "four_leg";  ///< or "rod": of config/robots
   int postures = 6;                ///< contact-free recordings; the first at rest
   int single = 22;                 ///< one ball that the camera sees
   int pairs = 8;                   ///< two of them

@@ -18,7 +18,6 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "libs/experiment/csv_table.hpp"
 #include "tests/support/test_folder.hpp"
-#include "tests/system/independent/finger.hpp"
 
 /// `palpate calibrate` and `palpate estimate` without options on scenes whose shapes CalculiX has
 /// computed and whose images Embree has cast: neither the solver nor the camera are palpate's.
@@ -126,12 +125,8 @@ class TouchedScenes : public testing::TestWithParam<std::string> {
                            .weights = 3,
                            .alone = 1,
                            .frames = 2};
-    // A weight on a standing bar shortens it by less than the depth noise.
-    if (plan.robot == "finger") plan.weights = 0;
     truth_ = WriteTouchedScenes(plan, folder_ / "exp");
-    robot_ = plan.robot == "finger"
-                 ? WriteFinger(folder_.path())
-                 : fs::path(PALPATE_SOURCE_DIR) / "config/robots" / (plan.robot + ".yaml");
+    robot_ = fs::path(PALPATE_SOURCE_DIR) / "config/robots" / (plan.robot + ".yaml");
   }
 
   void Calibrate() {
@@ -201,7 +196,7 @@ TEST_P(TouchedScenes, AWeightThatLiesThereFromTheFirstFrameOnIsNoRobot) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, TouchedScenes, testing::Values("four_leg", "rod", "finger"),
+INSTANTIATE_TEST_SUITE_P(Robots, TouchedScenes, testing::Values("four_leg", "rod"),
                          [](const auto& robot) { return robot.param; });
 
 }  // namespace
