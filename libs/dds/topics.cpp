@@ -46,6 +46,8 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kRosoutTopic),
           NameAndType(kClockTopic),
           NameAndType(kTfStaticTopic),
+          NameAndType(kExperimentPhaseTopic),
+          NameAndType(kExperimentLoadTopic),
           NameAndType(kRobotDescriptionTopic)};
 }
 

@@ -86,6 +86,9 @@ inline constexpr Topic<idl::rcl_interfaces::Log> kRosoutTopic{"/rosout"};
 /// What nodes with use_sim_time take for now.
 inline constexpr Topic<idl::rosgraph_msgs::Clock> kClockTopic{"/clock"};
 inline constexpr Topic<idl::tf2_msgs::TFMessage> kTfStaticTopic{"/tf_static"};
+/// What is done in a recording, and known loads: users publish them (docs/experiment.md).
+inline constexpr Topic<idl::std_msgs::String> kExperimentPhaseTopic{"/experiment/phase"};
+inline constexpr Topic<idl::geometry_msgs::WrenchStamped> kExperimentLoadTopic{"/experiment/load"};
 /// The robot as URDF.
 inline constexpr Topic<idl::std_msgs::String> kRobotDescriptionTopic{"/robot_description"};
 
