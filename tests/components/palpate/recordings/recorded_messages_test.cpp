@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "components/palpate/recordings/describe_mcap.hpp"
 #include "tests/components/palpate/recordings/topic_recording.hpp"
@@ -83,6 +84,9 @@ TEST(RecordedMessages, AFilterChoosesTopicsAndTimes) {
 
 TEST(RecordedMessages, KnowTheNewestMessageOfEachChannelBeforeATime) {
   const TestFolder folder;
+  for (const char* format : {"mcap", "sqlite"}) {
+    std::filesystem::create_directory(folder / format);
+  }
   Words(2000).WriteMcap(folder / "mcap/run_0.mcap");
   Words(1050).WriteMcap(folder / "mcap/run_1.mcap");
   Words(2000).WriteSqlite(folder / "sqlite/run_0.db3");
