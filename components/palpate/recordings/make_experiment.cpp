@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "components/palpate/recordings/collected_topics.hpp"
@@ -37,6 +38,11 @@ std::string FolderName(std::string name) {
 
 std::string Numbered(std::size_t number, const std::string& name) {
   return (number < 10 ? "r0" : "r") + std::to_string(number) + "_" + FolderName(name);
+}
+
+/// Whether a normal path names a file below the folder that it is put in.
+bool IsBelow(const fs::path& path) {
+  return path.is_relative() && path.has_filename() && *path.begin() != ".." && path != ".";
 }
 
 /// Phases of /experiment/phase.
@@ -107,7 +113,9 @@ class ExperimentMaker {
     WriteAttachments();
     experiment::WriteExperiment(experiment_, out_);
     WriteCameras();
+    const std::size_t notes_before = notes_.size();
     WriteImages(recorded_, roles_, topics_, camera_, Stretches(), &notes_);
+    RequireWrittenData({notes_.begin() + static_cast<std::ptrdiff_t>(notes_before), notes_.end()});
     for (const auto& [what, count] : topics_.left_out) {
       notes_.push_back("left out: " + std::to_string(count) + " message(s) of " + what);
     }
@@ -127,6 +135,19 @@ class ExperimentMaker {
     for (const auto& [what, count] : topics_.left_out) {
       why += "; " + std::to_string(count) + " message(s) of " + what;
     }
+    Refuse(why);
+  }
+
+  /// Packed images show only when they are unpacked whether they can be read.
+  void RequireWrittenData(const std::vector<std::string>& notes_of_images) const {
+    for (const experiment::Recording& recording : experiment_.recordings) {
+      const fs::path images = recording.folder / (topics_.depth.empty() ? "clouds" : "depth");
+      std::error_code missing;
+      const bool written = fs::exists(images) && !fs::is_empty(images, missing);
+      if (written || recording.markers) return;
+    }
+    std::string why = "none of its images or clouds can be read";
+    for (const std::string& note : notes_of_images) why += "; " + note;
     Refuse(why);
   }
 
@@ -207,14 +228,19 @@ class ExperimentMaker {
 
   void WriteAttachments() {
     for (const recording::Attachment& attachment : recorded_.Attachments()) {
-      const fs::path name = fs::path(attachment.name).filename();
-      if (name.empty() || name != fs::path(attachment.name)) continue;
-      experiment::CreateFolder(out_ / "attachments");
-      WriteFile(out_ / "attachments" / name, attachment.data);
+      const fs::path name = fs::path(attachment.name).lexically_normal();
+      if (!IsBelow(name)) {
+        notes_.push_back("attachment '" + attachment.name +
+                         "' is left out: its name is no path below a folder");
+        continue;
+      }
+      const fs::path file = out_ / "attachments" / name;
+      experiment::CreateFolder(file.parent_path());
+      WriteFile(file, attachment.data);
       notes_.push_back("attachments/" + name.string() + " was attached to the recording");
       const bool yaml = name.extension() == ".yaml" || name.extension() == ".yml";
       const bool robot = yaml && ("\n" + attachment.data).find("\nmesh:") != std::string::npos;
-      if (robot && !experiment_.robot) experiment_.robot = out_ / "attachments" / name;
+      if (robot && !experiment_.robot) experiment_.robot = file;
     }
   }
 

@@ -52,6 +52,51 @@ class CameraFinder {
     return recorded_.contents().channels.at(channel).topic;
   }
 
+  [[noreturn]] static void RefuseChange(const std::string& topic, const std::string& what) {
+    throw InputError(topic + ": the camera changes during the recording: " + what +
+                     "; make a recording of each part");
+  }
+
+  /// One experiment has one camera. What comes before the camera is calibrated does not count.
+  void RefuseOtherInfos(const CollectedInfo& used, bool by_p) const {
+    const auto model = [&](const CollectedInfo& info) {
+      return by_p ? info.rectified : info.model;
+    };
+    const rgbd::CameraModel last = model(used);
+    for (const CollectedInfo& info : topics_.infos) {
+      const bool sound = (by_p ? info.rectified_fault : info.fault).empty();
+      if (info.channel != used.channel || !sound || model(info) == last) continue;
+      const rgbd::CameraModel first = model(info);
+      std::string what = "principal point or distortion";
+      if (first.fx_px != last.fx_px) {
+        what =
+            "fx is " + FormatNumber(first.fx_px) + " px, later " + FormatNumber(last.fx_px) + " px";
+      }
+      if (first.width_px != last.width_px || first.height_px != last.height_px) {
+        what = "images are " + std::to_string(first.width_px) + " x " +
+               std::to_string(first.height_px) + " pixels, later " + std::to_string(last.width_px) +
+               " x " + std::to_string(last.height_px);
+      }
+      RefuseChange(RosTopicOf(TopicOf(info.channel)), what);
+    }
+  }
+
+  void RefuseOtherSetups() const {
+    const CollectedSetup& last = topics_.setups.back();
+    for (const CollectedSetup& setup : topics_.setups) {
+      const auto& names = roles_.names;
+      const auto topic = names.find(setup.knows_color ? kCameraSetupTopic : kFrameInfoTopic);
+      if (setup.depth_unit_m != last.depth_unit_m) {
+        RefuseChange(topic->second, "the depth step is " + FormatNumber(setup.depth_unit_m) +
+                                        " m, later " + FormatNumber(last.depth_unit_m) + " m");
+      }
+      if (setup.invalid_value != last.invalid_value) {
+        RefuseChange(topic->second, "the invalid value is " + std::to_string(setup.invalid_value) +
+                                        ", later " + std::to_string(last.invalid_value));
+      }
+    }
+  }
+
   /// The last message of a topic; nullptr: there is none.
   const CollectedInfo* InfoOf(const std::string& topic) const {
     const CollectedInfo* last = nullptr;
@@ -97,6 +142,7 @@ class CameraFinder {
     const std::string image = WithoutVariant(roles_.names.at(image_role));
     const bool rectified = image.substr(image.rfind('/') + 1).starts_with("image_rect");
     const bool by_p = rectified && info.rectified_fault.empty();
+    RefuseOtherInfos(info, by_p);
     *model = by_p ? info.rectified : info.model;
     const std::string& fault = by_p ? info.rectified_fault : info.fault;
     return fault.empty() ? "" : RosTopicOf(TopicOf(info.channel)) + ": " + fault;
@@ -125,6 +171,7 @@ class CameraFinder {
     }
     camera->depth_unit_m = kMillimetre_m;
     if (!topics_.setups.empty()) {
+      RefuseOtherSetups();
       const CollectedSetup& setup = topics_.setups.back();
       camera->depth_unit_m = setup.depth_unit_m;
       camera->invalid_value = setup.invalid_value;

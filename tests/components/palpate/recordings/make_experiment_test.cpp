@@ -27,8 +27,6 @@ using testing::HasSubstr;
 
 constexpr char kImage[] = "sensor_msgs/msg/Image";
 constexpr char kInfo[] = "sensor_msgs/msg/CameraInfo";
-constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
-constexpr std::int64_t kStep_ns = 100'000'000;
 
 /// A recording and the experiment that it becomes.
 class MakeExperimentTest : public testing::Test {

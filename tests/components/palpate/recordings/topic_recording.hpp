@@ -19,6 +19,10 @@
 
 namespace palpate::command {
 
+/// Stamp of the first message of a recording, and the time between its images.
+inline constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
+inline constexpr std::int64_t kStep_ns = 100'000'000;
+
 /// Messages that can be written as an MCAP file, or as rosbag2's storage sqlite3 has them.
 struct TopicRecording {
   struct Entry {
@@ -28,6 +32,7 @@ struct TopicRecording {
     std::string data;
   };
   std::vector<Entry> entries;
+  std::vector<recording::Attachment> attachments;  ///< of an MCAP file
 
   void Add(const std::string& topic, const std::string& type, std::int64_t log_ns, const Cdr& cdr) {
     entries.push_back({topic, type, log_ns, cdr.bytes()});
@@ -46,6 +51,7 @@ struct TopicRecording {
                                                        .metadata = {}});
       writer.Write(recording::Message{channel, 0, entry.log_ns, entry.log_ns, entry.data});
     }
+    for (const recording::Attachment& attachment : attachments) writer.Write(attachment);
     writer.Close();
   }
 
