@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "libs/app/stop_signal.hpp"
@@ -20,5 +21,10 @@ class EndOnSignal {
  private:
   app::StopSignal stop_;
 };
+
+/// The temporary folder of this process, which EndOnSignal removes before the process ends; empty:
+/// none any more. Does not return while the process is ended by a signal, so that whoever removes
+/// the folder calls this first.
+void RemoveOnSignal(const std::filesystem::path& folder);
 
 }  // namespace palpate::command

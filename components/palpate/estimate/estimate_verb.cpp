@@ -4,9 +4,11 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 
 #include <memory>
+#include <optional>
 
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/estimate/estimate_run.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
@@ -64,7 +66,10 @@ int EstimateInFolder(const std::filesystem::path& folder, const EstimateOptions&
 
 int Estimate(const EstimateOptions& options) {
   CheckOptions(options);
+  std::optional<EndOnSignal> end_on_signal;
+  end_on_signal.emplace("palpate estimate", "no force was estimated");
   const DataFolder data(options.data, options.remap);
+  end_on_signal.reset();  // from here on what is estimated so far is kept
   return data.Run(
       [&](const std::filesystem::path& folder) { return EstimateInFolder(folder, options); });
 }

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/recordings/make_experiment.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -40,6 +41,7 @@ DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& rem
                      "holds no recorded messages, so that --remap means nothing; leave it out");
   }
   temporary_ = MakeTemporaryFolder();
+  RemoveOnSignal(temporary_);
   path_ = temporary_ / "experiment";
   try {
     for (const std::string& note : MakeExperiment(data, remap, path_, app::LoadYaml)) {
@@ -54,8 +56,10 @@ DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& rem
 DataFolder::~DataFolder() { Remove(); }
 
 void DataFolder::Remove() const {
+  if (temporary_.empty()) return;
+  RemoveOnSignal({});
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+  fs::remove_all(temporary_, ignored);
 }
 
 int DataFolder::Run(const std::function<int(const fs::path&)>& verb) const {

@@ -6,9 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -243,6 +245,27 @@ TEST(Interrupted, CalibrateSaysThatNothingWasWritten) {
         for (;;) std::this_thread::yield();
       },
       testing::ExitedWithCode(130), "palpate calibrate: interrupted: no calibration was written");
+}
+
+TEST(Interrupted, ATemporaryFolderIsRemoved) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  // The child runs the test from its begin; both shall know the folder.
+  const pid_t test = testing::internal::InDeathTestChild() ? getppid() : getpid();
+  const auto folder = std::filesystem::path(testing::TempDir()) /
+                      ("palpate_removed_on_signal_" + std::to_string(test));
+  std::filesystem::create_directories(folder / "depth");
+  EXPECT_EXIT(
+      {
+        const EndOnSignal end("palpate calibrate", "no calibration was written");
+        RemoveOnSignal(folder);
+        raise(SIGTERM);
+        // What fails for want of the folder does not end the process.
+        while (std::filesystem::exists(folder)) std::this_thread::yield();
+        RemoveOnSignal({});
+        std::_Exit(1);
+      },
+      testing::ExitedWithCode(130), "palpate calibrate: interrupted: no calibration was written");
+  EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
 TEST(ChildProcess, ReportsTheExitCodeAndKeepsTheOutput) {

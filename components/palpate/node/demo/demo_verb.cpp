@@ -4,7 +4,9 @@
 #include "components/palpate/node/demo/demo_verb.hpp"
 
 #include <memory>
+#include <optional>
 
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
 #include "libs/core/error.hpp"
@@ -26,7 +28,10 @@ int Demo(const DemoOptions& options) {
   if (!system.data.empty() && system.robot.empty()) {
     throw InputError("--data needs --robot: the robot of these recordings");
   }
+  std::optional<EndOnSignal> end_on_signal;
+  end_on_signal.emplace("palpate demo", "nothing was written");
   const DataFolder data(system.data, system.remap);
+  end_on_signal.reset();
   SystemDemoOptions of_folder = system;
   of_folder.data = data.path();
   return data.Run([&](const std::filesystem::path&) { return SystemDemo(of_folder); });
