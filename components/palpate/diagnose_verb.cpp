@@ -234,6 +234,7 @@ int Diagnose(const DiagnoseOptions& options) {
   diagnosis::DiagnosisResult& result = diagnosis.result;
   result.robot = robot.name;
   result.data = options.data.string();
+  result.reason = data.Named(result.reason);
   result.version = app::Version();
   result.command = CommandOf(options);
   result.duration_s = SecondsSince(begin);

@@ -67,16 +67,20 @@ int DataFolder::Run(const std::function<int(const fs::path&)>& verb) const {
   try {
     return verb(path_);
   } catch (const InputError& error) {
-    std::string text = error.what();
-    const std::string folder = path_.string();
-    bool named = false;
-    for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder, at)) {
-      text.replace(at, folder.size(), data_.string() + " as an experiment");
-      named = true;
-    }
-    if (named) text += " (`palpate export --experiment` keeps these files)";
-    throw InputError(text);
+    throw InputError(Named(error.what()));
   }
+}
+
+std::string DataFolder::Named(std::string text) const {
+  if (temporary_.empty()) return text;
+  const std::string folder = path_.string();
+  bool named = false;
+  for (std::size_t at = text.find(folder); at != text.npos; at = text.find(folder, at)) {
+    text.replace(at, folder.size(), data_.string() + " as an experiment");
+    named = true;
+  }
+  if (named) text += " (`palpate export --experiment` keeps these files)";
+  return text;
 }
 
 void DeclareRemap(app::Arguments& arguments, std::vector<std::string>* remap) {

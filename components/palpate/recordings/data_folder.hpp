@@ -28,6 +28,9 @@ class DataFolder {
   /// Runs a verb. The text of an InputError that names a file of the folder names `data` instead.
   int Run(const std::function<int(const std::filesystem::path&)>& verb) const;
 
+  /// `text` with the recording's name in the place of the folder, which is gone soon.
+  std::string Named(std::string text) const;
+
  private:
   void Remove() const;
 
