@@ -8,6 +8,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/recording/ros2msg/message_definition.hpp"
+#include "libs/recording/ros_names.hpp"
 
 namespace palpate::player {
 
@@ -55,10 +56,6 @@ OfferedQos Strongest(const OfferedQos& a, const OfferedQos& b) {
 
 }  // namespace
 
-std::string PlayedName(const std::string& topic) {
-  return topic.starts_with("rt/") ? topic.substr(2) : topic;
-}
-
 RecordingSource::RecordingSource(const std::vector<std::filesystem::path>& files,
                                  const recording::TopicChoice& choice)
     : recorded_(std::make_unique<recording::RecordedMessages>(files)),
@@ -97,7 +94,7 @@ void RecordingSource::Add(const Channel& channel, const recording::TopicChoice& 
 
 std::optional<std::size_t> RecordingSource::TopicOf(const Channel& channel,
                                                     const recording::TopicChoice& choice) {
-  const std::string name = PlayedName(channel.topic);
+  const std::string name = recording::RosTopicName(channel.topic);
   if (recording::IsRosInternal(channel.topic) || !choice.Includes(name)) return std::nullopt;
   const Schema& schema = recorded_->SchemaOf(channel);
   if (const std::string reason = WhyNot(channel, schema); !reason.empty()) {

@@ -92,7 +92,4 @@ class RecordingSource {
   LastMessages last_latched_;
 };
 
-/// "rt/forces" -> "/forces"; other names stay.
-std::string PlayedName(const std::string& topic);
-
 }  // namespace palpate::player

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "components/palpate/recordings/ros_image.hpp"
+#include "libs/recording/ros_names.hpp"
+#include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::command {
 
@@ -43,9 +45,7 @@ struct MessageHeader {
 
 MessageHeader ReadHeader(CdrReader* reader) {
   MessageHeader header;
-  const auto seconds = static_cast<std::int32_t>(reader->Bits(4));
-  header.stamp_ns =
-      seconds * std::int64_t{1'000'000'000} + static_cast<std::int64_t>(reader->Bits(4));
+  header.stamp_ns = reader->Stamp_ns();
   header.frame_id = reader->String();
   return header;
 }
@@ -67,16 +67,13 @@ std::vector<std::string> Texts(CdrReader* reader) {
 /// Empty: the lens is one that a camera file can have.
 std::string SetDistortion(const std::string& name, const std::vector<double>& d,
                           rgbd::CameraModel* model) {
-  const auto zero = [](double x) { return x == 0.0; };
-  if (std::all_of(d.begin(), d.end(), zero)) return {};
-  const bool plumb_bob = name == "plumb_bob" && (d.size() == 4 || d.size() == 5);
-  const bool rational =
-      name == "rational_polynomial" && d.size() == 8 && std::all_of(d.begin() + 5, d.end(), zero);
-  if (!plumb_bob && !rational) {
+  const auto distortion = rgbd::DistortionOf(name, d);
+  if (!distortion) {
     return "distortion model '" + name + "' with " + std::to_string(d.size()) +
-           " numbers instead of plumb_bob with 5: record the rectified image (image_rect)";
+           " numbers instead of plumb_bob with 5 finite ones: record the rectified image "
+           "(image_rect)";
   }
-  std::copy_n(d.begin(), std::min<std::size_t>(d.size(), 5), model->distortion.begin());
+  model->distortion = *distortion;
   return {};
 }
 
@@ -220,7 +217,7 @@ class Collector {
   }
 
   bool IsInfo(const recording::Channel& channel) const {
-    return RosTypeOf(recorded_.SchemaOf(channel).name) == "sensor_msgs/msg/CameraInfo";
+    return recording::RosTypeName(recorded_.SchemaOf(channel).name) == "sensor_msgs/msg/CameraInfo";
   }
 
   bool IsWanted(const recording::Channel& channel) const {
@@ -240,7 +237,7 @@ class Collector {
 
   void LeaveOut(const recording::Message& message, const std::string& why) {
     const auto& channel = recorded_.contents().channels.at(message.channel_id);
-    ++topics_.left_out[RosTopicOf(channel.topic) + ": " + why];
+    ++topics_.left_out[recording::RosTopicName(channel.topic) + ": " + why];
   }
 
   template <typename Item, typename Read>

@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::command {
 
 namespace {
@@ -131,9 +133,7 @@ bool IsRealTime(const Times& times) {
 std::int64_t MedianDelay(const Times& times) {
   std::vector<std::int64_t> delays_ns;
   for (const MessageTime* time : times) delays_ns.push_back(time->log_ns - time->stamp_ns);
-  const auto middle = delays_ns.begin() + static_cast<std::ptrdiff_t>(delays_ns.size() / 2);
-  std::nth_element(delays_ns.begin(), middle, delays_ns.end());
-  return *middle;
+  return UpperMedian(delays_ns);
 }
 
 /// Whether the stamps of two topics are not of one clock.

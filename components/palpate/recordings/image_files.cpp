@@ -15,8 +15,10 @@
 #include "components/palpate/recordings/ros_cloud.hpp"
 #include "components/palpate/recordings/ros_image.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/experiment/cloud/pcd.hpp"
 #include "libs/experiment/folders.hpp"
+#include "libs/recording/ros_names.hpp"
 #include "libs/rgbd/png.hpp"
 
 namespace palpate::command {
@@ -44,9 +46,7 @@ std::int64_t MedianStep(const std::vector<CollectedImage>& images) {
     steps_ns.push_back(images[i].time.t_ns - images[i - 1].time.t_ns);
   }
   if (steps_ns.empty()) return 0;
-  const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
-  std::nth_element(steps_ns.begin(), middle, steps_ns.end());
-  return *middle;
+  return UpperMedian(steps_ns);
 }
 
 /// Colour images under the time of the depth image that each goes with; none is used twice.
@@ -131,7 +131,7 @@ class ImageWriter {
     if (roles_.Is(kDepthTopic, id)) cause = TakeDepth(message, *type);
     if (roles_.Is(kColorTopic, id)) cause = TakeColor(message, *type);
     if (roles_.Is(kPointsTopic, id)) cause = TakePoints(message, *type);
-    if (!cause.empty()) ++left_out_[RosTopicOf(channel.topic) + ": " + cause];
+    if (!cause.empty()) ++left_out_[recording::RosTopicName(channel.topic) + ": " + cause];
   }
 
   void CheckSize(const std::string& role, int width_px, int height_px,

@@ -4,24 +4,13 @@
 #include "components/palpate/recordings/message_type.hpp"
 
 #include <utility>
+#include "libs/recording/ros_names.hpp"
 
 namespace palpate::command {
 
-std::string RosTypeOf(std::string type) {
-  const std::size_t middle = type.find("::msg::dds_::");
-  if (middle == type.npos || !type.ends_with('_')) return type;
-  type.replace(middle, 13, "/msg/");
-  type.pop_back();
-  return type;
-}
-
-std::string RosTopicOf(const std::string& topic) {
-  return topic.starts_with("rt/") ? topic.substr(2) : topic;
-}
-
 std::unique_ptr<MessageType> TypeOf(const recording::Schema& schema) {
   auto type = std::make_unique<MessageType>();
-  type->name = RosTypeOf(schema.name);
+  type->name = recording::RosTypeName(schema.name);
   if (schema.encoding == "ros2msg" && !schema.data.empty()) {
     type->definitions = recording::ParseRos2msg(type->name, schema.data);
     return type;
@@ -33,10 +22,8 @@ std::unique_ptr<MessageType> TypeOf(const recording::Schema& schema) {
 
 std::int64_t StampOf(const recording::Message& message, const MessageType& type) {
   recording::CdrReader reader = type.At("header", message.data);
-  const auto seconds = static_cast<std::int32_t>(reader.Bits(4));
-  const auto ns = static_cast<std::int64_t>(reader.Bits(4));
-  if (!reader.ok()) return message.log_time_ns;
-  return seconds * std::int64_t{1'000'000'000} + ns;
+  const std::int64_t stamp_ns = reader.Stamp_ns();
+  return reader.ok() ? stamp_ns : message.log_time_ns;
 }
 
 }  // namespace palpate::command

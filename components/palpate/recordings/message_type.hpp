@@ -24,12 +24,6 @@ struct MessageType {
   }
 };
 
-/// "sensor_msgs::msg::dds_::Image_", as tools that do not know ROS name it -> sensor_msgs/msg/Image
-std::string RosTypeOf(std::string type);
-
-/// "rt/camera/depth/image_raw", as DDS names a topic of ROS -> /camera/depth/image_raw
-std::string RosTopicOf(const std::string& topic);
-
 /// The recording's own definition, else the built-in one; nullptr where there is none.
 std::unique_ptr<MessageType> TypeOf(const recording::Schema& schema);
 

@@ -11,6 +11,7 @@
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/frames.hpp"
+#include "libs/recording/ros_names.hpp"
 
 namespace palpate::command {
 
@@ -77,7 +78,7 @@ class CameraFinder {
                std::to_string(first.height_px) + " pixels, later " + std::to_string(last.width_px) +
                " x " + std::to_string(last.height_px);
       }
-      RefuseChange(RosTopicOf(TopicOf(info.channel)), what);
+      RefuseChange(recording::RosTopicName(TopicOf(info.channel)), what);
     }
   }
 
@@ -101,7 +102,7 @@ class CameraFinder {
   const CollectedInfo* InfoOf(const std::string& topic) const {
     const CollectedInfo* last = nullptr;
     for (const CollectedInfo& info : topics_.infos) {
-      if (RosTopicOf(TopicOf(info.channel)) == topic) last = &info;
+      if (recording::RosTopicName(TopicOf(info.channel)) == topic) last = &info;
     }
     return last;
   }
@@ -145,13 +146,14 @@ class CameraFinder {
     RefuseOtherInfos(info, by_p);
     *model = by_p ? info.rectified : info.model;
     const std::string& fault = by_p ? info.rectified_fault : info.fault;
-    return fault.empty() ? "" : RosTopicOf(TopicOf(info.channel)) + ": " + fault;
+    return fault.empty() ? "" : recording::RosTopicName(TopicOf(info.channel)) + ": " + fault;
   }
 
   [[noreturn]] void RefuseWithoutInfo(const std::string& image_role, const std::string& info_role,
                                       const std::string& frame_id) const {
     std::set<std::string> names;
-    for (const CollectedInfo& info : topics_.infos) names.insert(RosTopicOf(TopicOf(info.channel)));
+    for (const CollectedInfo& info : topics_.infos)
+      names.insert(recording::RosTopicName(TopicOf(info.channel)));
     std::string why = roles_.names.at(image_role) +
                       ": no intrinsics: the recording has no "
                       "sensor_msgs/CameraInfo beside it, nor one of its frame '" +
@@ -186,7 +188,7 @@ class CameraFinder {
     notes_->push_back(std::to_string(topics_.depth.size() + topics_.points.size()) +
                       (topics_.depth.empty() ? " clouds of " : " depth images of ") +
                       roles_.names.at(role) + ", intrinsics of " +
-                      RosTopicOf(TopicOf(info->channel)) + ", depth in steps of " +
+                      recording::RosTopicName(TopicOf(info->channel)) + ", depth in steps of " +
                       FormatNumber(camera->depth_unit_m) + " m");
   }
 

@@ -12,33 +12,14 @@
 #include "libs/core/error.hpp"
 #include "libs/rgbd/jpeg.hpp"
 #include "libs/rgbd/png.hpp"
+#include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::command {
 
 namespace {
 
-/// Bytes of a pixel, and which of them are red, green and blue.
-struct ColorLayout {
-  std::string_view encoding;
-  std::uint32_t pixel_bytes;
-  std::array<std::size_t, 3> rgb;
-};
-constexpr std::array<ColorLayout, 7> kColorLayouts = {{{"rgb8", 3, {0, 1, 2}},
-                                                       {"bgr8", 3, {2, 1, 0}},
-                                                       {"8UC3", 3, {2, 1, 0}},
-                                                       {"rgba8", 4, {0, 1, 2}},
-                                                       {"bgra8", 4, {2, 1, 0}},
-                                                       {"mono8", 1, {0, 0, 0}},
-                                                       {"8UC1", 1, {0, 0, 0}}}};
 /// In front of the PNG of image_transport's compressedDepth: which format, and two parameters.
 constexpr std::size_t kDepthHeader = 12;
-
-const ColorLayout* LayoutOf(const std::string& encoding) {
-  for (const ColorLayout& layout : kColorLayouts) {
-    if (layout.encoding == encoding) return &layout;
-  }
-  return nullptr;
-}
 
 bool IsDepthEncoding(const std::string& encoding) {
   return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
@@ -132,15 +113,14 @@ bool RosImage::IsDepth() const {
 bool RosImage::IsColor() const {
   if (IsDepth()) return false;
   if (compressed() && encoding.empty()) return true;
-  const ColorLayout* layout = LayoutOf(encoding);
+  const rgbd::ColorLayout* layout = rgbd::ColorLayoutOf(encoding);
   return layout != nullptr && layout->pixel_bytes > 1;
 }
 
 std::string ReadImage(std::string_view cdr, const MessageType& type, RosImage* image) {
   *image = {};
   recording::CdrReader reader = type.At("header", cdr);
-  reader.Bits(4);
-  reader.Bits(4);
+  reader.Stamp_ns();
   image->frame_id = reader.String();
   if (type.name == kCompressedImageType) {
     image->format = reader.String();
@@ -184,7 +164,7 @@ std::string DecodeRosColor(const RosImage& image, rgbd::ColorImage* color) {
     }
     return {};
   }
-  const ColorLayout* layout = LayoutOf(image.encoding);
+  const rgbd::ColorLayout* layout = rgbd::ColorLayoutOf(image.encoding);
   if (layout == nullptr) {
     return "encoding '" + image.encoding + "' is not known (rgb8, bgr8, rgba8, bgra8, mono8)";
   }

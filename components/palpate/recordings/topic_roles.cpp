@@ -9,6 +9,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
+#include "libs/recording/ros_names.hpp"
 
 namespace palpate::command {
 
@@ -110,8 +111,8 @@ std::vector<FoundTopic> ListTopics(const recording::RecordedMessages& recorded) 
   for (const auto& [id, channel] : recorded.contents().channels) {
     const auto count = counts.find(id);
     if (count == counts.end() || count->second == 0) continue;
-    const std::string name = RosTopicOf(channel.topic);
-    const std::string type = RosTypeOf(recorded.SchemaOf(channel).name);
+    const std::string name = recording::RosTopicName(channel.topic);
+    const std::string type = recording::RosTypeName(recorded.SchemaOf(channel).name);
     FoundTopic& topic = topics[{name, type}];
     topic.name = name;
     topic.base = topic.role = IsImageType(type) ? BaseOf(name) : name;
@@ -138,7 +139,7 @@ void Remap(const std::vector<std::string>& rules, std::vector<FoundTopic>* topic
       throw InputError("--remap " + rule +
                        ": must be FROM:=TO, for instance /depth/image:=" + kDepthTopic);
     }
-    const std::string from = RosTopicOf(rule.substr(0, middle));
+    const std::string from = recording::RosTopicName(rule.substr(0, middle));
     const std::string to = rule.substr(middle + 2);
     if (!IndexOf(from, names)) {
       throw InputError("--remap " + rule +

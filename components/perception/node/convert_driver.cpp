@@ -15,6 +15,7 @@
 #include "components/perception/node/convert.hpp"
 #include "libs/dds/invalid_message.hpp"
 #include "libs/dds/message.hpp"
+#include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::perception {
 
@@ -23,18 +24,6 @@ namespace {
 using dds::Invalid;
 using idl::sensor_msgs::CameraInfo;
 using idl::sensor_msgs::Image;
-
-/// Bytes of a pixel, and which of them are red, green and blue.
-struct ColorLayout {
-  std::string_view encoding;
-  std::uint32_t pixel_bytes;
-  std::array<std::size_t, 3> rgb;
-};
-constexpr std::array<ColorLayout, 5> kColorLayouts = {{{"rgb8", 3, {0, 1, 2}},
-                                                       {"bgr8", 3, {2, 1, 0}},
-                                                       {"rgba8", 4, {0, 1, 2}},
-                                                       {"bgra8", 4, {2, 1, 0}},
-                                                       {"mono8", 1, {0, 0, 0}}}};
 
 Status UnknownEncoding(const Image& message, const std::string& known) {
   return Invalid("encoding '" + std::string(dds::Text(message.encoding)) +
@@ -73,24 +62,6 @@ Status CopyMetres(const Image& message, double largest_z_m, double unit_m,
   return Status::Ok();
 }
 
-/// The numbers k1, k2, p1, p2, k3 of a lens; nullopt: it is of another model.
-std::optional<std::array<double, 5>> DistortionOf(const CameraInfo& message) {
-  std::array<double, 5> distortion{};
-  const std::uint32_t count = message.d._length;
-  const double* d = message.d._buffer;
-  const bool none = std::all_of(d, d + count, [](double x) { return x == 0.0; });
-  if (none) return distortion;
-  const std::string_view model = dds::Text(message.distortion_model);
-  const bool plumb_bob = model == "plumb_bob" && (count == 4 || count == 5);
-  const bool rational = model == "rational_polynomial" && count == 8 &&
-                        std::all_of(d + 5, d + 8, [](double x) { return x == 0.0; });
-  if (!plumb_bob && !rational) return std::nullopt;
-  std::copy_n(d, std::min<std::uint32_t>(count, 5), distortion.begin());
-  const bool finite =
-      std::all_of(distortion.begin(), distortion.end(), [](double x) { return std::isfinite(x); });
-  return finite ? std::optional(distortion) : std::nullopt;
-}
-
 }  // namespace
 
 Status FromDriverDepth(const Image& message, double unit_16bit_m, double largest_z_m,
@@ -109,10 +80,8 @@ Status FromDriverDepth(const Image& message, double unit_16bit_m, double largest
 
 Status FromDriverColor(const Image& message, rgbd::ColorImage* image) {
   const std::string_view encoding = dds::Text(message.encoding);
-  const auto layout =
-      std::find_if(kColorLayouts.begin(), kColorLayouts.end(),
-                   [&](const ColorLayout& known) { return known.encoding == encoding; });
-  if (layout == kColorLayouts.end()) {
+  const rgbd::ColorLayout* layout = rgbd::ColorLayoutOf(encoding);
+  if (layout == nullptr) {
     return UnknownEncoding(message, "rgb8, bgr8, rgba8, bgra8 or mono8");
   }
   if (Status status = CheckImageSize(message, layout->pixel_bytes); !status.ok()) return status;
@@ -136,7 +105,8 @@ Status FromDriverInfo(const CameraInfo& message, bool rectified, rgbd::CameraMod
     std::copy_n(from_p, 9, pinhole.k);
   }
   if (Status status = FromCameraInfo(pinhole, camera); !status.ok() || rectified) return status;
-  const auto distortion = DistortionOf(message);
+  const auto distortion = rgbd::DistortionOf(dds::Text(message.distortion_model),
+                                             {message.d._buffer, message.d._length});
   if (!distortion) {
     return Invalid("distortion model '" + std::string(dds::Text(message.distortion_model)) +
                    "' with " + std::to_string(message.d._length) +

@@ -9,12 +9,9 @@
 namespace palpate::player {
 
 std::optional<std::int64_t> StampOfCdr(std::string_view cdr) {
-  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
   recording::CdrReader reader(cdr);
-  const auto seconds = static_cast<std::int32_t>(reader.Bits(4));
-  const auto nanoseconds = static_cast<std::int64_t>(reader.Bits(4));
-  if (!reader.ok()) return std::nullopt;
-  return seconds * kNsPerSecond + nanoseconds;
+  const std::int64_t stamp_ns = reader.Stamp_ns();
+  return reader.ok() ? std::optional(stamp_ns) : std::nullopt;
 }
 
 Answers::Answers(dds::Participant& participant, dds::WaitSet& loop)

@@ -12,6 +12,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/recording/ros_names.hpp"
 
 namespace palpate::recorder {
 
@@ -50,27 +51,7 @@ bool AddInstalled(const std::string& name, recording::Definitions* definitions) 
   return true;
 }
 
-bool IsReplaced(std::string* text, std::string_view from, std::string_view to) {
-  const std::size_t at = text->find(from);
-  if (at == text->npos) return false;
-  text->replace(at, from.size(), to);
-  return true;
-}
-
 }  // namespace
-
-std::string TopicNameOf(std::string_view dds_topic) {
-  return std::string(dds_topic.starts_with("rt/") ? dds_topic.substr(2) : dds_topic);
-}
-
-std::string TypeNameOf(std::string_view dds_type) {
-  std::string name(dds_type);
-  if (!name.ends_with('_') || !IsReplaced(&name, "::dds_::", "::")) return name;
-  name.pop_back();
-  while (IsReplaced(&name, "::", "/")) {
-  }
-  return name;
-}
 
 std::string QosYaml(const dds::Publication& publication) {
   constexpr std::string_view kForever = "\n    sec: 9223372036\n    nsec: 854775807";
@@ -99,8 +80,8 @@ std::optional<std::string> FindRos2msg(const std::string& ros_type) {
 
 TopicDescription Describe(const dds::Publication& publication) {
   TopicDescription topic;
-  topic.topic = TopicNameOf(publication.dds_topic);
-  topic.type = TypeNameOf(publication.dds_type);
+  topic.topic = recording::RosTopicName(publication.dds_topic);
+  topic.type = recording::RosTypeName(publication.dds_type);
   topic.qos = QosYaml(publication);
   topic.has_key = publication.has_key;
   topic.latched = publication.durability == dds::Durability::kTransientLocal;

@@ -13,12 +13,6 @@
 
 namespace palpate::recorder {
 
-/// "rt/forces" -> "/forces"; the names of other DDS topics stay.
-std::string TopicNameOf(std::string_view dds_topic);
-
-/// "palpate_msgs::msg::dds_::ForceArray_" -> "palpate_msgs/msg/ForceArray"; other names stay.
-std::string TypeNameOf(std::string_view dds_type);
-
 /// The QoS of a writer in the YAML that rosbag2 writes into a channel.
 std::string QosYaml(const dds::Publication& publication);
 

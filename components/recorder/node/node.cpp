@@ -10,6 +10,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/utc_text.hpp"
+#include "libs/recording/ros_names.hpp"
 
 namespace palpate::recorder {
 
@@ -47,8 +48,9 @@ RecorderNode::RecorderNode(const NodeConfig& config, RecordPlan plan, int domain
       log_(participant_, std::move(process_log)),
       health_(participant_, "recorder", Clock::now()),
       diagnostics_(participant_.CreateReader(dds::kDiagnosticsTopic)),
-      publications_(participant_.handle(),
-                    [](const std::string& type) { return !FindRos2msg(TypeNameOf(type)); }),
+      publications_(
+          participant_.handle(),
+          [](const std::string& type) { return !FindRos2msg(recording::RosTypeName(type)); }),
       thread_(config, plan_.only_recent ? std::nullopt : std::optional(plan_.file), plan_.extras,
               [this] { loop_.Wake(); }),
       start_(Clock::now()) {
@@ -76,7 +78,7 @@ void RecorderNode::Run() {
 
 bool RecorderNode::IsChosen(const dds::Publication& publication) const {
   if (recording::IsRosInternal(publication.dds_topic)) return false;
-  const std::string name = TopicNameOf(publication.dds_topic);
+  const std::string name = recording::RosTopicName(publication.dds_topic);
   for (const dds::TopicSettings& topic : participant_.table().topics()) {
     const bool named = !plan_.choice.wanted.empty();
     if (topic.name == name && !topic.recorded && !named) return false;

@@ -52,6 +52,11 @@ std::uint64_t CdrReader::Bits(std::uint32_t size) {
   return bits;
 }
 
+std::int64_t CdrReader::Stamp_ns() {
+  const auto seconds = static_cast<std::int32_t>(Bits(4));
+  return seconds * std::int64_t{1'000'000'000} + static_cast<std::int64_t>(Bits(4));
+}
+
 std::string_view CdrReader::String() {
   std::string_view text = Take(Length());
   if (text.ends_with('\0')) text.remove_suffix(1);

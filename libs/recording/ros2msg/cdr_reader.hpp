@@ -25,6 +25,8 @@ class CdrReader {
   std::uint64_t Bits(std::uint32_t size);
   std::string_view String();
   std::uint32_t Length() { return static_cast<std::uint32_t>(Bits(4)); }
+  /// A builtin_interfaces/Time, the first field of a std_msgs/Header.
+  std::int64_t Stamp_ns();
   /// `count` numbers of `size` bytes, in the byte order of the message.
   std::string_view Array(std::uint64_t count, std::uint32_t size);
   bool swaps_bytes() const { return swap_; }
