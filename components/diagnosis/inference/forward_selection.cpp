@@ -170,18 +170,26 @@ double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& poster
 
 /// Whether what is known of how large it is does not exclude that there is nothing of it. Evidence
 /// for such a one is of fits that did not come to their ends. An obstacle that nearly touches is
-/// one.
+/// one. What qualifies a size, as the time constant of a creep does, is held at its estimate: where
+/// the size is zero it has no effect, though the data may tell the two together and neither alone.
 bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   if (hypotheses.model(fault).Start()) return false;
   std::vector<Eigen::Index> sizes;
+  std::vector<Eigen::Index> qualifiers;
   for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
     const Eigen::Index column = hypotheses.first(fault) + p;
+    if (!(posterior.covariance(column, column) > 0.0)) continue;  // it is at its bound
     const bool qualifies = hypotheses.model(fault).parameters()[At(p)].qualifies;
-    if (!qualifies && posterior.covariance(column, column) > 0.0) sizes.push_back(column);
+    (qualifies ? qualifiers : sizes).push_back(column);
   }
   if (sizes.empty()) return false;
   const Eigen::VectorXd z = posterior.mean(sizes);
-  const Eigen::MatrixXd covariance = posterior.covariance(sizes, sizes);
+  Eigen::MatrixXd covariance = posterior.covariance(sizes, sizes);
+  if (!qualifiers.empty()) {
+    const Eigen::MatrixXd of_qualifiers = posterior.covariance(qualifiers, qualifiers);
+    const Eigen::MatrixXd both = posterior.covariance(qualifiers, sizes);
+    covariance -= both.transpose() * linalg::SolveSymmetric(of_qualifiers, both);
+  }
   return z.dot(linalg::SolveSymmetric(covariance, z)) < kSelectionTuning.nonzero_sigmas *
                                                             kSelectionTuning.nonzero_sigmas *
                                                             static_cast<double>(sizes.size());

@@ -85,6 +85,25 @@ TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
   EXPECT_EQ(WhyNotBoth(1.5, 1.5, -0.9), "");  // each may be nothing, their sum may not
 }
 
+/// A size that is 1.5 of its sigmas, and a time constant; data may tell the rate alone.
+std::string WhyNotSlow(double correlation) {
+  std::vector<FaultModelPtr> causes;
+  causes.push_back(std::make_unique<ToyFault>(
+      "slow", std::vector<FaultParameter>{{.name = "g", .fault = 1.0},
+                                          {.name = "tau_s", .fault = 1.0, .qualifies = true}}));
+  const HypothesisSet hypotheses(std::move(causes), {});
+  Posterior posterior;
+  posterior.mean = Eigen::Vector2d(1.5, 4.0);
+  posterior.covariance = Eigen::Matrix2d{{1.0, correlation}, {correlation, 1.0}};
+  return WhyNoFault(hypotheses, posterior, 0);
+}
+
+TEST(FaultSize, ExcludesNothingWhereWhatQualifiesItIsUnknown) {
+  EXPECT_THAT(WhyNotSlow(0.0), testing::HasSubstr("two standard deviations"));
+  EXPECT_THAT(WhyNotSlow(0.5), testing::HasSubstr("two standard deviations"));
+  EXPECT_EQ(WhyNotSlow(0.9), "");  // sqrt(1 - 0.9^2) = 0.44 at that time constant
+}
+
 /// A delay, tolerance 0.01 s, and a time constant that a nominal robot has nothing of, known to
 /// these sigmas.
 std::string WhyNotLate(const Eigen::Vector2d& late_s, const Eigen::Vector2d& sigma_s,
