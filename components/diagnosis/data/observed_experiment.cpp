@@ -62,8 +62,15 @@ std::vector<DepthFrame> DepthFramesOf(const Recording& recording) {
   return depth_frames;
 }
 
+Eigen::Matrix3Xd RestOf(const std::vector<robot::BodyMarker>& markers) {
+  Eigen::Matrix3Xd rest_m(3, ToIndex(markers.size()));
+  for (std::size_t m = 0; m < markers.size(); ++m) rest_m.col(ToIndex(m)) = markers[m].point.rest_m;
+  return rest_m;
+}
+
 ObservedRecording DescribeRecording(const experiment::Experiment& experiment,
-                                    const Recording& recording, bool with_depth_frames) {
+                                    const Recording& recording, const robot::RobotBody& body,
+                                    bool with_depth_frames) {
   ObservedRecording seen{.name = recording.name, .kind = ToString(recording.kind)};
   seen.camera_frame = FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
   const auto pose = RobotFromMarkers(experiment, recording);
@@ -80,7 +87,10 @@ ObservedRecording DescribeRecording(const experiment::Experiment& experiment,
     if (T_robot_camera != nullptr) seen.T_camera_robot = T_robot_camera->inverse();
   }
   seen.base_rotation = experiment::BaseRotation(recording);
-  if (CountsFromUndeformed(recording)) seen.held_until_s = recording.reference->window_s.end_s;
+  if (CountsFromUndeformed(recording)) {
+    seen.held_until_s = recording.reference->window_s.end_s;
+    seen.counts_from_m = RestOf(body.markers);
+  }
   return seen;
 }
 
@@ -97,9 +107,8 @@ std::vector<int> ColumnsOf(const Recording& recording, const std::vector<std::st
 /// Where the reference window has each marker, from where it is at rest: to take off; empty without
 /// one.
 Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>& columns,
-                             const robot::RobotBody& body,
-                             const Eigen::Isometry3d& T_measurement_robot) {
-  if (!CountsFromUndeformed(recording)) return {};
+                             const ObservedRecording& seen) {
+  if (seen.counts_from_m.size() == 0) return {};
   const auto means = MeanOver(*recording.markers, recording.reference->window_s);
   Eigen::Matrix3Xd off_m(3, ToIndex(columns.size()));
   for (std::size_t m = 0; m < columns.size(); ++m) {
@@ -108,7 +117,7 @@ Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>&
     if (columns[m] < 0) continue;
     const auto& mean = means[At(columns[m])];
     if (mean.count == 0) continue;
-    off_m.col(column) = mean.mean_m - T_measurement_robot * body.markers[m].point.rest_m;
+    off_m.col(column) = mean.mean_m - seen.T_measurement_robot * seen.counts_from_m.col(column);
   }
   return off_m;
 }
@@ -184,8 +193,7 @@ void TakeStamps(const std::vector<DepthFrame>& depth_frames, Sample* sample) {
 /// The samples of one recording.
 class Sampler {
  public:
-  Sampler(const Recording& recording, int index, const robot::RobotBody& body,
-          const ObservedExperiment& observed)
+  Sampler(const Recording& recording, int index, const ObservedExperiment& observed)
       : recording_(recording),
         index_(index),
         timeline_(observed.timeline),
@@ -194,7 +202,7 @@ class Sampler {
     if (seen.T_camera_robot) depth_frames_ = DepthFramesOf(recording);
     if (!recording.markers) return;
     columns_ = ColumnsOf(recording, observed.markers);
-    reference_m_ = ReferenceOf(recording, columns_, body, seen.T_measurement_robot);
+    reference_m_ = ReferenceOf(recording, columns_, seen);
   }
 
   bool HasSomething() const { return recording_.markers || !depth_frames_.empty(); }
@@ -309,9 +317,9 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
     const Recording& recording = experiment.recordings[i];
     CheckCables(recording, cables);
     observed.recordings.push_back(
-        DescribeRecording(experiment, recording, settings.with_depth_frames));
+        DescribeRecording(experiment, recording, body, settings.with_depth_frames));
     if (recording.markers) CheckMarkers(recording, observed.markers);
-    const Sampler sampler(recording, static_cast<int>(i), body, observed);
+    const Sampler sampler(recording, static_cast<int>(i), observed);
     if (sampler.HasSomething()) samplers.push_back(sampler);
   }
   if (samplers.empty()) {

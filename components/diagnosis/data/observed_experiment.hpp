@@ -62,6 +62,10 @@ struct ObservedRecording {
       0.0;  ///< of that camera, focal length times baseline; 0: not known, or no stereo
   /// Positions count from the body in its undeformed shape, in which it was held until then.
   std::optional<double> held_until_s = {};
+  /// [3 x markers] robot frame: where markers of a body that was held so are by the robot file.
+  /// Their displacements from there were measured, so that of a pose only turns change them. Empty:
+  /// positions were measured.
+  Eigen::Matrix3Xd counts_from_m = {};
   int pose_of = -1;  ///< recording from the same place as which it is planned; -1: it was made
 
   /// From where it was seen, depth frames before markers.

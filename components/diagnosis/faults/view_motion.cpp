@@ -36,16 +36,21 @@ Eigen::Vector3d TurnOf(const Eigen::Vector3d& turn_rad, int component) {
 void AddViewMotion(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
                    const Eigen::Isometry3d& T_after, const FaultContext& at,
                    Eigen::Matrix3Xd* motion_m) {
-  const Eigen::Isometry3d T_moved_measurement = (at.T_measurement_robot() * T_after).inverse();
+  const Eigen::Isometry3d& T_given = at.T_measurement_robot();
+  const Eigen::Isometry3d T_moved_measurement = (T_given * T_after).inverse();
+  const Eigen::Matrix3Xd& counts_from_m = at.recording().counts_from_m;
+  const bool are_displacements = at.target == Target::kMarkers && counts_from_m.size() > 0;
+  if (are_displacements && parameter < 3) return;
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
     // What a depth camera with errors measured is not where it saw it.
     const Eigen::Vector3d measured_m = at.measured_points.camera
                                            ? at.measured_points.point(m).at_m
                                            : at.simulated().markers_m().col(m);
-    const Eigen::Vector3d seen_m = T_moved_measurement * measured_m;
-    const Eigen::Vector3d move =
-        parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
-                      : TurnOf(z.tail<3>(), parameter - 3).cross(seen_m - middle_m - z.head<3>());
+    Eigen::Vector3d lever_m = T_moved_measurement * measured_m - middle_m - z.head<3>();
+    if (are_displacements)
+      lever_m = T_moved_measurement.linear() * (measured_m - T_given * counts_from_m.col(m));
+    const Eigen::Vector3d move = parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
+                                               : TurnOf(z.tail<3>(), parameter - 3).cross(lever_m);
     motion_m->col(m) += T_after.linear() * move;
   }
 }

@@ -236,8 +236,9 @@ Eigen::VectorXd SampleSolver::OnFinerMesh(const Eigen::VectorXd& x_m) const {
 MeasuredPoints SampleSolver::MeasuredPointsOf(const Sample& sample,
                                               const Eigen::VectorXd& x_m) const {
   const auto recording = static_cast<std::size_t>(sample.recording);
-  const Eigen::Isometry3d T_measurement_robot =
-      observed_.recordings[recording].T_measurement_robot * hypothesis_.T_seen[recording];
+  const Eigen::Matrix3Xd& counts_from_m = observed_.recordings[recording].counts_from_m;
+  const Eigen::Isometry3d& T_given = observed_.recordings[recording].T_measurement_robot;
+  const Eigen::Isometry3d T_measurement_robot = T_given * hypothesis_.T_seen[recording];
   MeasuredPoints measured_points{
       .points = {}, .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kMarkers)};
   Eigen::VectorXd farther_m = Eigen::VectorXd::Zero(3 * std::ssize(markers_));
@@ -245,8 +246,12 @@ MeasuredPoints SampleSolver::MeasuredPointsOf(const Sample& sample,
     farther_m = hypothesis_.mesh_error->of_markers * MeshErrorAt(x_m);
   for (std::size_t m = 0; m < markers_.size(); ++m) {
     const Eigen::Vector3d at_m = markers_[m].Position(x_m) + farther_m.segment<3>(3 * ToIndex(m));
-    measured_points.points.push_back(
-        {T_measurement_robot * at_m, T_measurement_robot.linear() * skin_.Normal(m, x_m)});
+    Eigen::Vector3d seen_m = T_measurement_robot * at_m;
+    if (counts_from_m.size() > 0) {
+      const Eigen::Vector3d from_m = counts_from_m.col(ToIndex(m));
+      seen_m = T_given * from_m + T_measurement_robot.linear() * (at_m - from_m);
+    }
+    measured_points.points.push_back({seen_m, T_measurement_robot.linear() * skin_.Normal(m, x_m)});
   }
   return measured_points;
 }

@@ -191,6 +191,52 @@ TEST_F(FaultDerivatives, AreThoseOfApplyBehindACameraThatMeasuresWrongly) {
   }
 }
 
+/// Every recording begins with the body held undeformed, and its markers count from there.
+experiment::Experiment OfDisplacements(experiment::Experiment experiment) {
+  for (experiment::Recording& recording : experiment.recordings) {
+    const double begin_s = recording.markers->frames.front().t_s;
+    recording.reference = experiment::Reference{{begin_s, begin_s + 0.5}};
+  }
+  return experiment;
+}
+
+class FaultDerivativesOfDisplacements : public FaultDerivatives {
+ protected:
+  FaultDerivativesOfDisplacements()
+      : FaultDerivatives(SmallRobot(), OfDisplacements(SmallExperiment(SmallRobot()))) {}
+};
+
+TEST_F(FaultDerivativesOfDisplacements, AreThoseOfApplyWhereTheCameraIsElsewhere) {
+  constexpr double kTolerance = 2e-3;
+  constexpr double kShare = 0.31;
+  for (const FaultModelPtr& cause : causes_) {
+    if (cause->name().id != "extrinsics" && cause->name().id != "camera_moved") continue;
+    Eigen::VectorXd z(std::ssize(cause->parameters()));
+    for (Eigen::Index p = 0; p < z.size(); ++p) {
+      z[p] = kShare * cause->parameters()[static_cast<std::size_t>(p)].fault;
+    }
+    ExpectDerivative(*cause, z, kTolerance);
+  }
+}
+
+/// A pose that is off by a translation shifts the shape that the body was held in as well.
+TEST_F(FaultDerivativesOfDisplacements, DoNotChangeByATranslationOfTheCamera) {
+  int poses = 0;
+  for (const FaultModelPtr& cause : causes_) {
+    if (cause->name().id != "extrinsics" && cause->name().id != "camera_moved") continue;
+    ++poses;
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(6);
+    z.head<3>() << 0.004, -0.003, 0.002;
+    const FaultModelList one{cause.get()};
+    const Eigen::VectorXd as_given_m = Markers(one, Eigen::VectorXd::Zero(6));
+    EXPECT_LT((Markers(one, z) - as_given_m).cwiseAbs().maxCoeff(), 1e-12) << cause->words();
+    EXPECT_EQ(Analytic(one, z).leftCols(3).cwiseAbs().maxCoeff(), 0.0) << cause->words();
+    z.tail<3>() << 0.0, 0.02, 0.0;
+    EXPECT_GT((Markers(one, z) - as_given_m).cwiseAbs().maxCoeff(), 1e-5) << cause->words();
+  }
+  EXPECT_GE(poses, 2);
+}
+
 TEST_F(FaultDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
   FaultModelList two;
   for (const FaultModelPtr& cause : causes_) {
