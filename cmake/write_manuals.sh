@@ -4,7 +4,7 @@
 # write_manuals.sh SHARE PROGRAM...: asks the programs of the current folder for their manual pages
 # and completions, and writes them where man and bash-completion expect them below SHARE. The first
 # program has verbs; each of these gets a page of its own, palpate-VERB or, where a program has that
-# name, palpate_VERB.
+# name, palpate_VERB. Verbs of verbs get palpate-VERB-VERB.
 set -euo pipefail
 
 readonly share=$1
@@ -26,4 +26,11 @@ for verb in "${COMPREPLY[@]}"; do
   page=$pages/$1-$verb.1
   [[ " $* " != *" $1-$verb "* ]] || page=$pages/$1_$verb.1
   "./$1" "$verb" --man >"$page"
+  grep -q '^\.SH VERBS' "$page" || continue
+  COMP_WORDS=("$1" "$verb" '')
+  COMP_CWORD=2
+  "_$1"
+  for below in "${COMPREPLY[@]}"; do
+    "./$1" "$verb" "$below" --man >"$pages/$1-$verb-$below.1"
+  done
 done

@@ -69,13 +69,27 @@ std::string NoteOnDefault(Need need, const std::string& value, const std::string
   return NoteOnDefault(need, value);
 }
 
-/// "--out FOLDER" -> "--out", "FOLDER"; without a second word `placeholder`.
+/// "--out FOLDER" -> "--out", "FOLDER"; "--window,-w N" has a short name, too. Without a second
+/// word `placeholder`.
 ArgumentText OptionText(const std::string& declared, const std::string& placeholder) {
   const std::size_t space = declared.find(' ');
   ArgumentText text;
   text.name = declared.substr(0, space);
   text.value = space == std::string::npos ? placeholder : declared.substr(space + 1);
+  if (const std::size_t comma = text.name.find(','); comma != std::string::npos) {
+    text.short_name = text.name.substr(comma + 1);
+    text.name.resize(comma);
+  }
   return text;
+}
+
+std::string NoteOnShortName(const ArgumentText& argument) {
+  return argument.short_name.empty() ? "" : " (also " + argument.short_name + ")";
+}
+
+/// As CLI11 takes it.
+std::string AllNames(const ArgumentText& argument) {
+  return argument.name + (argument.short_name.empty() ? "" : "," + argument.short_name);
 }
 
 }  // namespace
@@ -116,8 +130,9 @@ struct Arguments::Impl {
   CLI::Option* Add(const ArgumentText& argument, Need need,
                    std::function<void(const std::string&)> assign) {
     text.arguments.push_back(argument);
+    text.arguments.back().help += NoteOnShortName(argument);
     text.arguments.back().is_required = need == Need::kRequired;
-    return cli.add_option_function<std::string>(argument.name, std::move(assign))
+    return cli.add_option_function<std::string>(AllNames(argument), std::move(assign))
         ->required(need == Need::kRequired);
   }
 
@@ -244,8 +259,10 @@ void Arguments::Repeated(const std::string& name, std::vector<std::string>* valu
 }
 
 void Arguments::Flag(const std::string& name, bool* value, const std::string& help) {
-  impl_->text.arguments.push_back({.name = name, .help = help});
-  impl_->cli.add_flag(name, *value);
+  ArgumentText argument = OptionText(name, "");
+  argument.help = help + NoteOnShortName(argument);
+  impl_->text.arguments.push_back(argument);
+  impl_->cli.add_flag(AllNames(argument), *value);
 }
 
 void Arguments::Suggest(const std::string& name, std::vector<std::string> words) {

@@ -26,6 +26,8 @@ enum class Scope { kProgram, kVerb };
 /// unit; the range and the default, which is the target's value at the declaration, are added. A
 /// target that is empty or out of its range is shown as "default: none", unless the text says what
 /// holds "without it". The targets must outlive Parse().
+///
+/// Names may have a short one: "--window,-w N".
 class Arguments {
  public:
   /// `program`: "palpate solve"; `purpose`: an imperative sentence without a full stop.

@@ -49,6 +49,19 @@ std::string Assignments(const std::string& options, const std::string& words, bo
          " ;;\n";
 }
 
+/// The second word of "topic list", for verbs that have verbs.
+std::string FindVerbsBelow(const CommandText& program, const std::vector<CommandText>& verbs) {
+  std::string groups;
+  for (const CommandText& verb : verbs) {
+    if (verb.verbs.empty()) continue;
+    groups += (groups.empty() ? "" : "|") + ("'" + verb.name.substr(program.name.size() + 1) + "'");
+  }
+  if (groups.empty()) return {};
+  return "  case $verb in\n    " + groups +
+         ") if ((COMP_CWORD > 2)) && [[ ${COMP_WORDS[2]} != -* ]]; then verb+=\" "
+         "${COMP_WORDS[2]}\"; fi ;;\n  esac\n";
+}
+
 /// The words to offer where neither an option's value nor the verb is expected.
 std::string ArgumentsCase(const std::string& verb, const CommandText& command) {
   std::string options;
@@ -87,12 +100,13 @@ std::string FormatBashCompletion(const CommandText& program,
   }
   std::string script = "# bash completion of " + program.name + ", from " + program.name +
                        " --completion bash\n" + function + kBegin;
-  if (!verbs.empty()) script += kFindVerb;
+  if (!verbs.empty()) script += kFindVerb + FindVerbsBelow(program, verbs);
   std::string values = ValueCases("", program);
   script += "  case $verb in\n" + ArgumentsCase("", program);
-  for (std::size_t v = 0; v < verbs.size(); ++v) {
-    script += ArgumentsCase(program.verbs[v].name, verbs[v]);
-    values += ValueCases(program.verbs[v].name, verbs[v]);
+  for (const CommandText& verb : verbs) {
+    const std::string name = verb.name.substr(program.name.size() + 1);
+    script += ArgumentsCase(name, verb);
+    values += ValueCases(name, verb);
   }
   script += "  esac\n  case \"$verb $before\" in\n" + values + "  esac\n" + kEnd;
   return script + "complete -F " + function + " " + program.name + "\n";

@@ -11,6 +11,7 @@ namespace palpate::app {
 /// One argument of a program, as --help, the manual page and completion show it.
 struct ArgumentText {
   std::string name = {};                ///< "ROBOT", or "--out"
+  std::string short_name = {};          ///< "-w" of "--window"; empty: none
   std::string value = {};               ///< placeholder of an option's value; empty: a flag
   std::string help = {};                ///< what it does, with unit, range and default
   std::vector<std::string> words = {};  ///< values that completion offers
@@ -43,7 +44,8 @@ std::string FormatHelp(const CommandText& command);
 std::string FormatManualPage(const CommandText& command);
 
 /// The answer to --completion bash: a script that completes verbs, options, values and files of
-/// `program`. `verbs`: one for each of program.verbs, in the same order.
+/// `program`. `verbs`: "palpate solve", and of verbs that have verbs these, too: "palpate topic",
+/// "palpate topic list".
 std::string FormatBashCompletion(const CommandText& program, const std::vector<CommandText>& verbs);
 
 }  // namespace palpate::app

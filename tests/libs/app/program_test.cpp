@@ -151,6 +151,30 @@ TEST(Verbs, RefusesUnknownAndMissingOnes) {
             "a verb is missing; see palpate --help");
 }
 
+/// A group of verbs beside a verb.
+std::vector<Verb> VerbsWithGroup() {
+  std::vector<Verb> verbs = TwoVerbs();
+  verbs.push_back({.name = "topic", .purpose = "Looks at topics.", .verbs = TwoVerbs()});
+  return verbs;
+}
+
+TEST(Verbs, OfAGroupRunAndAreRefusedAsOthers) {
+  EXPECT_EQ(RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"topic", "solve", "a", "--seed=42"}),
+            42);
+  EXPECT_EQ(ProgramRefusal([] {
+              RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"topic", "slove"});
+            }),
+            "unknown verb 'slove' (did you mean 'solve'?); see palpate topic --help");
+  EXPECT_EQ(ProgramRefusal([] { RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"topic"}); }),
+            "a verb is missing; see palpate topic --help");
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"topic", "--help"}), kExitDone);
+  EXPECT_EQ(RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"--completion", "bash"}), kExitDone);
+  const std::string printed = ::testing::internal::GetCapturedStdout();
+  EXPECT_THAT(printed, HasSubstr("palpate topic VERB --help lists the arguments of a verb."));
+  EXPECT_THAT(printed, HasSubstr("    'topic solve') options="));
+}
+
 TEST(Verbs, HelpListsThem) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(RunVerbs("palpate", "Feels.", TwoVerbs(), {"--help"}), kExitDone);
