@@ -6,6 +6,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "libs/app/version.hpp"
@@ -54,6 +55,17 @@ void StartLog(const std::string& program, const NodeOptions& options) {
     LogInfo("version {}, settings {} (sha256 {}), domain {}", Version(),
             options.config_file.string(), options.config_sha256.substr(0, 12), options.domain_id);
   }
+}
+
+const std::vector<std::string>& LogLevels() {
+  static const std::vector<std::string> kLevels{"debug", "info", "warning", "error"};
+  return kLevels;
+}
+
+bool SetLogLevel(const std::string& level) {
+  if (std::find(LogLevels().begin(), LogLevels().end(), level) == LogLevels().end()) return false;
+  Logger()->set_level(spdlog::level::from_str(level));
+  return true;
 }
 
 void Log(Severity severity, std::string_view text) { Logger()->log(SpdlogLevel(severity), text); }

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "libs/app/node_options.hpp"
 #include "libs/core/severity.hpp"
@@ -16,6 +17,12 @@ namespace palpate::app {
 /// Sets up logging to the standard error output, with time, level and program, and writes the one
 /// line of the start: version, settings file and its hash, domain. Call once, in main().
 void StartLog(const std::string& program, const NodeOptions& options);
+
+/// The words for the lowest severity that is logged, from the lowest on.
+const std::vector<std::string>& LogLevels();
+
+/// Changes it while the process runs; false: no such level. Safe from any thread.
+[[nodiscard]] bool SetLogLevel(const std::string& level);
 
 /// One line of the log. For nodes and main() only: algorithms return diagnostics. Safe to call
 /// from any thread; before StartLog() only warnings and errors are written.

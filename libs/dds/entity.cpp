@@ -3,11 +3,12 @@
 
 #include "libs/dds/entity.hpp"
 
-#include "libs/core/error.hpp"
-
 namespace palpate::dds {
 
 dds_entity_t Created(dds_entity_t handle, const std::string& what) {
+  if (handle == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {
+    throw NotAllowed("cannot create " + what + ": " + dds_strretcode(-handle));
+  }
   if (handle < 0) {
     throw RunError("cannot create " + what + ": " + dds_strretcode(-handle));
   }

@@ -8,10 +8,18 @@
 #include <string>
 #include <utility>
 
+#include "libs/core/error.hpp"
+
 namespace palpate::dds {
 
+/// DDS Security does not allow an entity.
+class NotAllowed : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 /// The handle that a dds_create_... call returned. Throws RunError ("cannot create WHAT: reason")
-/// where it is an error code.
+/// where it is an error code, NotAllowed where DDS Security says so.
 dds_entity_t Created(dds_entity_t handle, const std::string& what);
 
 /// Owns one DDS entity: deleted, with its children, when this goes out of scope.

@@ -31,7 +31,8 @@ ParticipantSettings ParticipantOf(const NodeSettings& settings, std::string node
       .node_namespace = settings.node_namespace,
       .gid_layout = GidLayoutOf(settings.ros_distribution, ros_distro == nullptr ? "" : ros_distro),
       .remap = settings.remap,
-      .use_sim_time = settings.use_sim_time};
+      .use_sim_time = settings.use_sim_time,
+      .parameters = settings.parameters};
 }
 
 }  // namespace palpate::dds

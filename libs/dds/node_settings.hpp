@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/parameter.hpp"
 #include "libs/dds/participant.hpp"
 
 namespace palpate::dds {
@@ -22,6 +23,7 @@ struct NodeSettings {
   std::vector<std::string> remap;
   bool use_sim_time = false;
   std::string ros_distribution = "auto";
+  std::vector<Parameter> parameters = {};  ///< all settings of the process, to be shown to ROS 2
 
   template <typename Visitor>
   void Visit(Visitor&& v) {

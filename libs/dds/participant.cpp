@@ -16,6 +16,18 @@ Entity CreateParticipant(const ParticipantSettings& settings) {
                     "or unicast peers)");
 }
 
+std::unique_ptr<ParameterServices> MakeParameters(dds_entity_t participant, const TopicNames& names,
+                                                  const std::vector<Parameter>& parameters) {
+  if (parameters.empty()) return nullptr;
+  const std::string& node_namespace = names.node_namespace();
+  const std::string node = (node_namespace == "/" ? "" : node_namespace) + "/" + names.node_name();
+  try {
+    return std::make_unique<ParameterServices>(participant, node, parameters);
+  } catch (const NotAllowed&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Participant::Participant(const ParticipantSettings& settings, TopicTable table)
@@ -25,7 +37,9 @@ Participant::Participant(const ParticipantSettings& settings, TopicTable table)
       domain_(ApplyDomainSettings(settings.domain_id)),
       entity_(CreateParticipant(settings)),
       graph_(entity_.handle(), names_.node_namespace(), names_.node_name(), settings.gid_layout),
-      clock_(std::make_shared<RosClock>()) {
+      clock_(std::make_shared<RosClock>()),
+      parameters_(MakeParameters(entity_.handle(), names_, settings.parameters)) {
+  if (parameters_) graph_.Add(parameters_->writers(), parameters_->readers());
   if (!settings.use_sim_time) return;
   const TopicSettings& topic = table_.At(kClockTopic.name);
   clock_ = std::make_shared<RosClock>(handle(), topic, names_.Resolve(topic));

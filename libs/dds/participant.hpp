@@ -11,6 +11,7 @@
 
 #include "libs/dds/domain.hpp"
 #include "libs/dds/entity.hpp"
+#include "libs/dds/parameter_services.hpp"
 #include "libs/dds/raw_writer.hpp"
 #include "libs/dds/reader.hpp"
 #include "libs/dds/ros_clock.hpp"
@@ -27,8 +28,9 @@ struct ParticipantSettings {
   std::string node_name;   ///< as `ros2 node list` shows it
   std::string node_namespace = "/";
   GidLayout gid_layout = GidLayout::kHumble;
-  std::vector<std::string> remap = {};  ///< TopicNames
-  bool use_sim_time = false;            ///< take the time from /clock
+  std::vector<std::string> remap = {};     ///< TopicNames
+  bool use_sim_time = false;               ///< take the time from /clock
+  std::vector<Parameter> parameters = {};  ///< that its WaitSet answers for; empty: no services
 };
 
 /// One process on DDS, seen by ROS 2 as one node. Makes all writers and readers, by the topic
@@ -45,6 +47,8 @@ class Participant {
   const std::string& node_name() const { return names_.node_name(); }
   /// The time by which this node stamps and judges ages. Shared with what outlives a call.
   const std::shared_ptr<RosClock>& clock() const { return clock_; }
+  /// What its parameters are asked by; nullptr: none, or DDS Security does not allow them.
+  ParameterServices* parameters() const { return parameters_.get(); }
   /// ns since 1970 by that clock.
   std::int64_t Now_ns() const { return clock_->Now_ns(); }
   uint32_t domain_id() const { return domain_id_; }
@@ -99,6 +103,7 @@ class Participant {
   Entity entity_;
   RosGraph graph_;
   std::shared_ptr<RosClock> clock_;
+  std::unique_ptr<ParameterServices> parameters_;
 };
 
 }  // namespace palpate::dds

@@ -88,6 +88,13 @@ void RosGraph::AddReader(dds_entity_t reader) {
   Announce();
 }
 
+void RosGraph::Add(const std::vector<dds_entity_t>& writers,
+                   const std::vector<dds_entity_t>& readers) {
+  for (const dds_entity_t writer : writers) writers_.push_back(GuidOf(writer));
+  for (const dds_entity_t reader : readers) readers_.push_back(GuidOf(reader));
+  Announce();
+}
+
 void RosGraph::Announce() {
   layout_ == GidLayout::kHumble ? AnnounceAs<HumbleInfo>() : AnnounceAs<IronInfo>();
 }

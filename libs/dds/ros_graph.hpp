@@ -29,6 +29,7 @@ class RosGraph {
   /// Adds an endpoint and announces the node again. Throws RunError where it cannot be sent.
   void AddWriter(dds_entity_t writer);
   void AddReader(dds_entity_t reader);
+  void Add(const std::vector<dds_entity_t>& writers, const std::vector<dds_entity_t>& readers);
 
  private:
   void Announce();

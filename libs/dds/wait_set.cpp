@@ -34,6 +34,11 @@ WaitSet::WaitSet(const Participant& participant)
     : guard_(dds_create_guardcondition(participant.handle()), "a guard condition"),
       wait_set_(dds_create_waitset(participant.handle()), "a waitset") {
   AttachTo(wait_set_.handle(), guard_.handle(), nullptr);
+  ParameterServices* parameters = participant.parameters();
+  if (parameters == nullptr) return;
+  for (const dds_entity_t reader : parameters->readers()) {
+    Attach(reader, [parameters, reader] { parameters->Serve(reader); });
+  }
 }
 
 void WaitSet::Attach(dds_entity_t reader, std::function<void()> on_data) {

@@ -39,7 +39,7 @@ class WaitSet {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Throws RunError where DDS refuses.
+  /// Answers questions about the participant's parameters, too. Throws RunError where DDS refuses.
   explicit WaitSet(const Participant& participant);
 
   /// Calls `on_data` while messages wait in `reader`; it must take them. The reader must outlive

@@ -14,6 +14,7 @@
 
 #include "libs/app/log.hpp"
 #include "libs/app/operator_keys.hpp"
+#include "libs/app/parameters.hpp"
 #include "libs/app/process_tuning.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
@@ -227,6 +228,7 @@ void SettlePlay(Command* command) {
   if (command->clock) command->config.publish_clock = true;
   // The recorded time would contradict it.
   if (command->config.publish_clock) command->excluded.emplace_back("/clock");
+  app::AddParameters("palpate-player", command);
 }
 
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {

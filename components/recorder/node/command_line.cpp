@@ -16,6 +16,7 @@
 #include "components/recorder/node/status_json.hpp"
 #include "libs/app/log.hpp"
 #include "libs/app/operator_keys.hpp"
+#include "libs/app/parameters.hpp"
 #include "libs/app/process_tuning.hpp"
 #include "libs/app/project_files.hpp"
 #include "libs/app/run_main.hpp"
@@ -174,6 +175,7 @@ void SettleRecord(Command* command) {
   if (command->only_recent && command->config.recent_s <= 0.0) {
     throw InputError("--only-recent needs recent_s above 0: it says how many seconds are kept");
   }
+  app::AddParameters("palpate-recorder", command);
 }
 
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
