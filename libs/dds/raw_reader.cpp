@@ -66,6 +66,7 @@ struct RawReader::Callbacks {
 
   static void OnIncompatible(dds_entity_t, const dds_requested_incompatible_qos_status_t status,
                              void* argument) {
+    StateOf(argument).policy = status.last_policy_id;
     StateOf(argument).incompatible = status.total_count;
   }
 };

@@ -41,6 +41,8 @@ class RawReader {
   std::uint32_t matched() const { return state_->matched; }
   /// Whether a writer was turned away because of its QoS.
   bool has_incompatible_writer() const { return state_->incompatible > 0; }
+  /// Because of which policy, dds_qos_policy_id_t.
+  std::uint32_t last_incompatible_policy() const { return state_->policy; }
 
  private:
   struct State {
@@ -48,6 +50,7 @@ class RawReader {
     std::atomic<std::uint64_t> lost{0};
     std::atomic<std::uint32_t> matched{0};
     std::atomic<std::uint32_t> incompatible{0};
+    std::atomic<std::uint32_t> policy{0};  ///< of the last of these
   };
   struct Callbacks;
 
