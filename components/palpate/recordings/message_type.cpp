@@ -4,6 +4,8 @@
 #include "components/palpate/recordings/message_type.hpp"
 
 #include <utility>
+
+#include "libs/core/error.hpp"
 #include "libs/recording/ros_names.hpp"
 
 namespace palpate::command {
@@ -13,6 +15,15 @@ std::unique_ptr<MessageType> TypeOf(const recording::Schema& schema) {
   type->name = recording::RosTypeName(schema.name);
   if (schema.encoding == "ros2msg" && !schema.data.empty()) {
     type->definitions = recording::ParseRos2msg(type->name, schema.data);
+    return type;
+  }
+  if (schema.encoding == "omgidl" && !schema.data.empty()) {
+    try {
+      type->definitions = recording::ParseOmgIdl(schema.data);
+    } catch (const InputError&) {
+      return nullptr;
+    }
+    type->name = schema.name;
     return type;
   }
   type->definitions = recording::BuiltInDefinitions();

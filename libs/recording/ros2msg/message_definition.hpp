@@ -61,6 +61,11 @@ MessageDefinition ParseIdl(std::string_view text, const std::string& file);
 /// "MSG: package/Name" those that it uses. Throws InputError where it is none.
 Definitions ParseRos2msg(const std::string& ros_type, std::string_view text);
 
+/// Reads a schema of encoding "omgidl", as dds::IdlOfEndpoint writes it: structs by their full name
+/// ("a::b::Name_"), enumerations as int32. Throws InputError for what CdrReader cannot read:
+/// mutable types, optional members, nested sequences.
+Definitions ParseOmgIdl(std::string_view text);
+
 /// The schema of encoding "ros2msg" of a type; nullopt where it, or a type that it uses, is not
 /// among `definitions`.
 std::optional<std::string> FormatRos2msg(const std::string& ros_type,
