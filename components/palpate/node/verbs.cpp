@@ -12,6 +12,9 @@
 #include "components/palpate/node/demo/demo_verb.hpp"
 #include "components/palpate/node/play/play_verb.hpp"
 #include "components/palpate/node/record/record_verb.hpp"
+#include "components/palpate/node/topics/node_verbs.hpp"
+#include "components/palpate/node/topics/param_verbs.hpp"
+#include "components/palpate/node/topics/topic_verbs.hpp"
 #include "components/palpate/node/watch/watch_verb.hpp"
 #include "components/palpate/recordings/export_verb.hpp"
 #include "components/palpate/recordings/repair_verb.hpp"
@@ -25,8 +28,9 @@ namespace palpate::command {
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
       DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
-      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     RecordVerb(),
-      PlayVerb(),     RepairVerb(), ExportVerb(),   InfoVerb(),      ReferenceVerb()};
+      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     TopicVerb(),
+      NodeVerb(),     ParamVerb(),  RecordVerb(),   PlayVerb(),      RepairVerb(),
+      ExportVerb(),   InfoVerb(),   ReferenceVerb()};
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
 }

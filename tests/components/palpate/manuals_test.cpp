@@ -114,6 +114,14 @@ TEST_F(Manuals, KnowTheOptionsOfHelp) {
   for (const std::string& verb : Verbs()) {
     ExpectSameOptions("palpate " + verb, PageOf(verb), Complete("palpate", verb + " --"));
   }
+  for (const std::string group : {"topic", "node", "param"}) {
+    const std::vector<std::string> verbs = Complete("palpate", group + " ''");
+    EXPECT_THAT(verbs, testing::Contains("list"));
+    for (const std::string& verb : verbs) {
+      ExpectSameOptions("palpate " + group + " " + verb, "palpate-" + group + "-" + verb,
+                        Complete("palpate", group + " " + verb + " --"));
+    }
+  }
   for (const std::string& process : Processes()) {
     ExpectSameOptions(process, process, Complete(process, "--"));
   }

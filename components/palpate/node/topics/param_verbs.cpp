@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/topics/param_verbs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "components/palpate/node/topics/graph_options.hpp"
+#include "components/palpate/node/topics/node_verbs.hpp"
+#include "components/palpate/node/topics/parameter_text.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/dds/domain_graph.hpp"
+#include "libs/dds/parameter_client.hpp"
+#include "libs/dds/service.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Of each question; nodes answer between two frames.
+constexpr auto kPatience = std::chrono::seconds(3);
+
+struct ParamOptions : GraphOptions {
+  std::string node;
+  std::string name;
+  std::string value;
+  std::vector<std::string> names;
+  std::vector<std::string> prefixes;
+  bool types = false;
+  bool hide_type = false;
+};
+
+/// Whether a node answers questions about its parameters.
+bool HasParameters(const dds::DomainGraph& graph, const dds::RosNode& node) {
+  const std::string topic = dds::RequestTopicOf(node.FullName() + "/list_parameters");
+  return std::any_of(node.readers.begin(), node.readers.end(), [&](const dds::Guid& guid) {
+    const auto found = graph.endpoints().find(guid);
+    return found != graph.endpoints().end() && found->second.dds_topic == topic;
+  });
+}
+
+/// One node that has parameters.
+class ParameterNode {
+ public:
+  explicit ParameterNode(const ParamOptions& options)
+      : graph_(static_cast<std::uint32_t>(options.domain_id)),
+        node_(WaitForNode(graph_, GraphNames(options), options, options.node)),
+        client_(graph_.participant(), node_.FullName(), kPatience) {
+    if (HasParameters(graph_, node_)) return;
+    throw RunError(fmt::format("node '{}' has no services for parameters", node_.FullName()));
+  }
+
+  std::string name() const { return node_.FullName(); }
+  const dds::ParameterClient& client() const { return client_; }
+
+  /// Throws RunError with "did you mean" for a name that the node does not have.
+  void Require(const std::vector<std::string>& names) const {
+    const std::vector<std::string> known = client_.List();
+    for (const std::string& name : names) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      throw RunError(fmt::format("node '{}' has no parameter '{}'{}", node_.FullName(), name,
+                                 DidYouMean(name, known)));
+    }
+  }
+
+ private:
+  dds::DomainGraph graph_;
+  dds::RosNode node_;
+  dds::ParameterClient client_;
+};
+
+std::vector<std::string> WithPrefix(std::vector<std::string> names,
+                                    const std::vector<std::string>& prefixes) {
+  std::erase_if(names, [&](const std::string& name) {
+    return !prefixes.empty() &&
+           std::none_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
+             return name == prefix || name.starts_with(prefix + ".");
+           });
+  });
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Lists the parameters of one node.
+Json ListNode(const dds::ParameterClient& client, const ParamOptions& options) {
+  const std::vector<std::string> names = WithPrefix(client.List(), options.prefixes);
+  const std::vector<Parameter> described =
+      options.types || options.json ? client.Describe(names) : std::vector<Parameter>();
+  Json json = Json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string type =
+        i < described.size() ? ParameterTypeName(described[i].value) : "not set";
+    if (options.json) {
+      json.push_back({{"name", names[i]}, {"type", type}});
+    } else {
+      fmt::print("  {}{}\n", names[i], options.types ? " (type: " + type + ")" : "");
+    }
+  }
+  return json;
+}
+
+int ListAll(const ParamOptions& options) {
+  const GraphNames names(options);
+  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
+  graph.WatchUntilComplete(SpinEnd(options));
+  Json all = Json::object();
+  bool all_answered = true;
+  for (const dds::RosNode& node : graph.Nodes()) {
+    if (!names.IsOfNamespace(node.FullName()) || !HasParameters(graph, node)) continue;
+    if (!options.json) fmt::print("{}:\n", node.FullName());
+    try {
+      const dds::ParameterClient client(graph.participant(), node.FullName(), kPatience);
+      all[node.FullName()] = ListNode(client, options);
+    } catch (const RunError& error) {
+      fmt::print(stderr, "palpate: error: {}\n", error.what());
+      all_answered = false;
+    }
+  }
+  if (options.json) fmt::print("{}\n", all.dump());
+  return all_answered ? app::kExitDone : app::kExitFailed;
+}
+
+int List(const ParamOptions& options) {
+  if (options.node.empty()) return ListAll(options);
+  const ParameterNode node(options);
+  const Json list = ListNode(node.client(), options);
+  if (options.json) fmt::print("{}\n", Json({{node.name(), list}}).dump());
+  return app::kExitDone;
+}
+
+int Get(const ParamOptions& options) {
+  const ParameterNode node(options);
+  node.Require({options.name});
+  const ParameterValue value = node.client().Get({options.name}).front();
+  if (options.json) {
+    const Json json = {{"node", node.name()},
+                       {"name", options.name},
+                       {"type", ParameterTypeName(value)},
+                       {"value", Json::parse(ParameterJson(value))}};
+    fmt::print("{}\n", json.dump());
+  } else {
+    fmt::print("{}\n", ParameterLine(value, options.hide_type));
+  }
+  return app::kExitDone;
+}
+
+int Set(const ParamOptions& options) {
+  const ParameterNode node(options);
+  node.Require({options.name});
+  const std::vector<Parameter> described = node.client().Describe({options.name});
+  const ParameterValue like = described.empty() ? ParameterValue() : described.front().value;
+  const std::string refusal = node.client().Set(options.name, ParseParameter(options.value, like));
+  if (options.json) {
+    const Json json = {{"node", node.name()},
+                       {"name", options.name},
+                       {"successful", refusal.empty()},
+                       {"reason", refusal}};
+    fmt::print("{}\n", json.dump());
+  } else if (refusal.empty()) {
+    fmt::print("Set parameter successful\n");
+  } else {
+    fmt::print(stderr, "Setting parameter failed: {}\n", refusal);
+  }
+  return refusal.empty() ? app::kExitDone : app::kExitFailed;
+}
+
+Json DescriptionJson(const Parameter& parameter) {
+  Json range = nullptr;
+  if (parameter.range) range = {parameter.range->first, parameter.range->second};
+  return {{"name", parameter.name},
+          {"type", ParameterTypeName(parameter.value)},
+          {"description", parameter.description},
+          {"read_only", !parameter.fixed_because.empty()},
+          {"range", range},
+          {"constraints", parameter.constraints}};
+}
+
+int Describe(const ParamOptions& options) {
+  const ParameterNode node(options);
+  node.Require(options.names);
+  Json all = Json::array();
+  for (const Parameter& parameter : node.client().Describe(options.names)) {
+    if (options.json) {
+      all.push_back(DescriptionJson(parameter));
+    } else {
+      fmt::print("{}", ParameterDescription(parameter));
+    }
+  }
+  if (options.json) fmt::print("{}\n", all.dump());
+  return app::kExitDone;
+}
+
+using Declare = void (*)(app::Arguments&, ParamOptions*);
+
+app::Verb VerbOf(const char* name, const char* purpose, app::Need node, Declare declare,
+                 int (*run)(const ParamOptions&)) {
+  return {name, purpose, [=](app::Arguments& arguments) -> app::Verb::Action {
+            const auto options = std::make_shared<ParamOptions>();
+            arguments.Positional("NODE", &options->node,
+                                 node == app::Need::kRequired
+                                     ? "Name of the node, like /palpate_player"
+                                     : "Name of the node; without it all",
+                                 node);
+            declare(arguments, options.get());
+            DeclareGraph(arguments, options.get());
+            return [options, run] {
+              SettleGraph(options.get());
+              return run(*options);
+            };
+          }};
+}
+
+}  // namespace
+
+app::Verb ParamVerb() {
+  constexpr app::Need kRequired = app::Need::kRequired;
+  return {
+      .name = "param",
+      .purpose = "List, read, change and describe the settings of nodes, as ros2 param does",
+      .verbs = {VerbOf(
+                    "list", "List the parameters of one node or all", app::Need::kOptional,
+                    [](app::Arguments& arguments, ParamOptions* options) {
+                      arguments.Repeated("--param-prefixes PREFIX", &options->prefixes,
+                                         "List those below this prefix only");
+                      arguments.Flag("--param-type", &options->types, "Show the types, too");
+                    },
+                    List),
+                VerbOf(
+                    "get", "Print the value of a parameter", kRequired,
+                    [](app::Arguments& arguments, ParamOptions* options) {
+                      arguments.Positional("PARAMETER", &options->name, "Name of the parameter");
+                      arguments.Flag("--hide-type", &options->hide_type, "Print the value alone");
+                    },
+                    Get),
+                VerbOf(
+                    "set", "Change a parameter of a running node; exit code 1 where it refuses",
+                    kRequired,
+                    [](app::Arguments& arguments, ParamOptions* options) {
+                      arguments.Positional("PARAMETER", &options->name, "Name of the parameter");
+                      arguments.Positional("VALUE", &options->value, "As in a settings file");
+                    },
+                    Set),
+                VerbOf(
+                    "describe", "Show type, meaning and range of parameters", kRequired,
+                    [](app::Arguments& arguments, ParamOptions* options) {
+                      arguments.Positionals("PARAMETER", &options->names, "Names of parameters");
+                    },
+                    Describe)}};
+}
+
+}  // namespace palpate::command
