@@ -4,7 +4,10 @@
 #include "libs/dds/health.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/core/text.hpp"
@@ -14,7 +17,7 @@ namespace palpate::dds {
 
 namespace {
 
-using KeysAndValues = std::vector<std::pair<std::string, std::string>>;
+using KeysAndValues = HealthReporter::KeysAndValues;
 
 double MeanOr0(const std::vector<double>& values) { return values.empty() ? 0.0 : Mean(values); }
 
@@ -39,23 +42,69 @@ KeysAndValues ValuesOf(const idl::palpate_msgs::ComponentStatus& status) {
 
 HealthReporter::HealthReporter(Participant& participant, std::string component_name,
                                Clock::time_point start)
-    : component_name_(std::move(component_name)),
+    : participant_(participant),
+      component_name_(std::move(component_name)),
       node_name_(participant.node_name()),
       clock_(participant.clock()),
       start_(start),
       last_report_(start),
       status_(participant.CreateWriter(kComponentStatusTopic)),
-      diagnostics_(participant.CreateWriter(kDiagnosticsTopic)) {}
+      diagnostics_(participant.CreateWriter(kDiagnosticsTopic)),
+      sole_writers_(participant, start),
+      clock_offsets_(participant) {}
 
 void HealthReporter::Report(const Status& status, const HealthCounts& counts,
                             const KeysAndValues& extra, Clock::time_point now) {
-  const auto message = Fill(status, counts, now);
+  const Status judged = WithConflict(status, now);
+  ExchangeClocks();
+  KeysAndValues values = ClockValues();
+  values.insert(values.end(), extra.begin(), extra.end());
+  const auto message = Fill(judged, counts, now);
   // A report that is not taken shows in failed_count(); the next one follows in a second.
   (void)status_.Write(message);
-  (void)diagnostics_.Write(Translate(*message, status.ok(), extra));
+  (void)diagnostics_.Write(Translate(*message, judged.ok(), values));
   last_report_ = now;
   last_received_ = counts.received;
   last_published_ = counts.published;
+}
+
+Status HealthReporter::WithConflict(const Status& status, Clock::time_point now) {
+  const auto conflict = sole_writers_.Find(now);
+  if (conflict && conflict->came_later) throw RunError(conflict->reason);
+  const std::string reason = conflict ? conflict->reason : std::string();
+  if (reason != std::exchange(conflict_, reason)) {
+    if (reason.empty()) {
+      participant_.WriteLog(Severity::kInfo, "this process is the only writer of its topics again");
+    } else {
+      participant_.WriteLog(Severity::kError, reason);
+    }
+  }
+  return reason.empty() ? status : Status(StatusCode::kInvalidInput, reason);
+}
+
+void HealthReporter::ExchangeClocks() {
+  const std::string frames = participant_.ResolvedName(kFrameInfoTopic.name);
+  const std::string cables = participant_.ResolvedName(kJointStatesTopic.name);
+  std::vector<std::string> stamped;
+  for (const Participant::Written& topic : participant_.written()) {
+    if (topic.ros_name == frames || topic.ros_name == cables) stamped.push_back(topic.ros_name);
+  }
+  clock_offsets_.Send(stamped);
+  const auto ns_of = [&](const std::string& topic) {
+    const auto offset = clock_offsets_.Of(topic);
+    return offset ? std::llround(1e9 * offset->offset_s) : 0LL;
+  };
+  clock_->SetOffsets(ns_of(frames), ns_of(cables));
+}
+
+HealthReporter::KeysAndValues HealthReporter::ClockValues() const {
+  KeysAndValues values = {{"host", ThisHost().name}};
+  for (const HostClock& clock : clock_offsets_.All()) {
+    values.emplace_back("clock_offset_s." + clock.host.name, FormatNumber(clock.offset.offset_s));
+    values.emplace_back("clock_offset_bound_s." + clock.host.name,
+                        FormatNumber(clock.offset.bound_s));
+  }
+  return values;
 }
 
 Message<idl::palpate_msgs::ComponentStatus> HealthReporter::Fill(const Status& status,

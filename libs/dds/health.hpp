@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "libs/core/status.hpp"
+#include "libs/dds/clock_offsets.hpp"
 #include "libs/dds/participant.hpp"
+#include "libs/dds/sole_writers.hpp"
 
 namespace palpate::dds {
 
@@ -25,16 +27,21 @@ struct HealthCounts {
 };
 
 /// Says once a second how a component fares, on /component_status for our own tools and on
-/// /diagnostics for those of ROS.
+/// /diagnostics for those of ROS. Measures the offsets to the clocks of other hosts, and gives them
+/// to the participant's clock. Another process that writes what this one alone may write
+/// (SoleWriters) is an error of this one.
 class HealthReporter {
  public:
   using Clock = std::chrono::steady_clock;
+  using KeysAndValues = std::vector<std::pair<std::string, std::string>>;
 
+  /// `participant` must outlive this.
   HealthReporter(Participant& participant, std::string component_name, Clock::time_point start);
 
-  /// `extra`: further values for /diagnostics. Rates are counted since the last report.
-  void Report(const Status& status, const HealthCounts& counts,
-              const std::vector<std::pair<std::string, std::string>>& extra, Clock::time_point now);
+  /// `extra`: further values for /diagnostics. Rates are counted since the last report. Throws
+  /// RunError where this process has just started and another one writes the same.
+  void Report(const Status& status, const HealthCounts& counts, const KeysAndValues& extra,
+              Clock::time_point now);
 
   /// Reports that DDS did not take.
   uint64_t failed_count() const { return status_.failed_count() + diagnostics_.failed_count(); }
@@ -46,6 +53,11 @@ class HealthReporter {
       const idl::palpate_msgs::ComponentStatus& status, bool ok,
       const std::vector<std::pair<std::string, std::string>>& extra) const;
 
+  Status WithConflict(const Status& status, Clock::time_point now);
+  void ExchangeClocks();
+  KeysAndValues ClockValues() const;
+
+  Participant& participant_;
   std::string component_name_;
   std::string node_name_;
   std::shared_ptr<RosClock> clock_;
@@ -55,6 +67,9 @@ class HealthReporter {
   uint64_t last_published_ = 0;
   Writer<idl::palpate_msgs::ComponentStatus> status_;
   Writer<idl::diagnostic_msgs::DiagnosticArray> diagnostics_;
+  SoleWriters sole_writers_;
+  std::string conflict_;  ///< that was logged last; empty: none now
+  ClockOffsets clock_offsets_;
 };
 
 }  // namespace palpate::dds

@@ -10,10 +10,13 @@
 namespace palpate::dds {
 
 NodeLog::NodeLog(Participant& participant, ProcessLog process_log)
-    : node_name_(participant.node_name()),
+    : participant_(participant),
+      node_name_(participant.node_name()),
       clock_(participant.clock()),
       process_log_(std::move(process_log)),
-      writer_(participant.CreateWriter(kRosoutTopic)) {}
+      writer_(participant.CreateWriter(kRosoutTopic)) {
+  participant.SetLog([this](Severity severity, std::string_view text) { Write(severity, text); });
+}
 
 void NodeLog::Write(Severity severity, std::string_view text) {
   const std::lock_guard lock(mutex_);

@@ -22,7 +22,11 @@ class NodeLog {
   using ProcessLog = std::function<void(Severity, std::string_view)>;
 
   /// `process_log` may be empty.
+  /// `participant` must outlive this.
   NodeLog(Participant& participant, ProcessLog process_log);
+  ~NodeLog() { participant_.SetLog({}); }
+  NodeLog(const NodeLog&) = delete;
+  NodeLog& operator=(const NodeLog&) = delete;
 
   void Write(Severity severity, std::string_view text);
 
@@ -35,6 +39,7 @@ class NodeLog {
  private:
   void WriteLocked(Severity severity, std::string_view text);
 
+  Participant& participant_;
   std::mutex mutex_;
   std::string node_name_;
   std::shared_ptr<RosClock> clock_;

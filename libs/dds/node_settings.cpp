@@ -32,7 +32,8 @@ ParticipantSettings ParticipantOf(const NodeSettings& settings, std::string node
       .gid_layout = GidLayoutOf(settings.ros_distribution, ros_distro == nullptr ? "" : ros_distro),
       .remap = settings.remap,
       .use_sim_time = settings.use_sim_time,
-      .parameters = settings.parameters};
+      .parameters = settings.parameters,
+      .remote_raw = settings.remote_raw};
 }
 
 }  // namespace palpate::dds

@@ -24,6 +24,7 @@ struct NodeSettings {
   bool use_sim_time = false;
   std::string ros_distribution = "auto";
   std::vector<Parameter> parameters = {};  ///< all settings of the process, to be shown to ROS 2
+  bool remote_raw = true;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
@@ -36,6 +37,9 @@ struct NodeSettings {
     v("ros_distribution", ros_distribution, {"auto", "humble", "iron"},
       "ROS 2 that shall see the node's name: humble, or iron for all later ones; auto: by the "
       "environment variable ROS_DISTRO, else humble");
+    v("remote_raw", remote_raw,
+      "Share raw images with other hosts and with ROS 2; false: with processes of this host that "
+      "have false, too");
   }
 };
 

@@ -3,7 +3,11 @@
 
 #include "libs/dds/participant.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "libs/dds/qos.hpp"
+#include "libs/dds/ros_names.hpp"
 
 namespace palpate::dds {
 
@@ -28,11 +32,17 @@ std::unique_ptr<ParameterServices> MakeParameters(dds_entity_t participant, cons
   }
 }
 
+TopicTable WithRawKept(const TopicTable& table, bool remote_raw) {
+  std::vector<TopicSettings> rows = table.topics();
+  for (TopicSettings& row : rows) row.this_host_only = row.raw && !remote_raw;
+  return TopicTable(std::move(rows));
+}
+
 }  // namespace
 
 Participant::Participant(const ParticipantSettings& settings, TopicTable table)
     : domain_id_(settings.domain_id),
-      table_(std::move(table)),
+      table_(WithRawKept(table, settings.remote_raw)),
       names_(settings.node_name, settings.node_namespace, settings.remap, table_),
       domain_(ApplyDomainSettings(settings.domain_id)),
       entity_(CreateParticipant(settings)),
@@ -44,6 +54,15 @@ Participant::Participant(const ParticipantSettings& settings, TopicTable table)
   const TopicSettings& topic = table_.At(kClockTopic.name);
   clock_ = std::make_shared<RosClock>(handle(), topic, names_.Resolve(topic));
   graph_.AddReader(clock_->reader()->handle());
+}
+
+RawWriterTopic Participant::KeptHere(RawWriterTopic topic) const {
+  for (const TopicSettings& row : table_.topics()) {
+    if (row.this_host_only && DdsTopicName(names_.Resolve(row)) == topic.dds_topic) {
+      topic.this_host_only = true;
+    }
+  }
+  return topic;
 }
 
 }  // namespace palpate::dds

@@ -7,8 +7,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "libs/core/severity.hpp"
 #include "libs/dds/domain.hpp"
 #include "libs/dds/entity.hpp"
 #include "libs/dds/parameter_services.hpp"
@@ -31,6 +34,7 @@ struct ParticipantSettings {
   std::vector<std::string> remap = {};     ///< TopicNames
   bool use_sim_time = false;               ///< take the time from /clock
   std::vector<Parameter> parameters = {};  ///< that its WaitSet answers for; empty: no services
+  bool remote_raw = true;  ///< false: raw images stay on this host (TopicSettings::raw)
 };
 
 /// One process on DDS, seen by ROS 2 as one node. Makes all writers and readers, by the topic
@@ -39,7 +43,8 @@ class Participant {
  public:
   /// Where CYCLONEDDS_URI is not set, config/cyclonedds/default.xml holds. Throws RunError where
   /// DDS refuses (no network interface, too many processes, bad CYCLONEDDS_URI), InputError for
-  /// names and rules that are none (TopicNames).
+  /// names and rules that are none (TopicNames), and for settings of Cyclone DDS that contradict
+  /// each other (domain_settings.hpp).
   Participant(const ParticipantSettings& settings, TopicTable table);
 
   dds_entity_t handle() const { return entity_.handle(); }
@@ -62,6 +67,7 @@ class Participant {
     Writer<T> writer(handle(), table_.At(topic.name), RosName(topic.name, name),
                      std::move(on_change));
     graph_.AddWriter(writer.handle());
+    written_.push_back({writer.ros_name(), table_.At(topic.name).sole_writer});
     return writer;
   }
   template <typename T>
@@ -82,9 +88,23 @@ class Participant {
   /// DDS refuses.
   std::unique_ptr<RawWriter> CreateRawWriter(const RawWriterTopic& topic,
                                              std::function<void()> on_change = {}) {
-    auto writer = std::make_unique<RawWriter>(handle(), topic, std::move(on_change));
+    auto writer = std::make_unique<RawWriter>(handle(), KeptHere(topic), std::move(on_change));
     graph_.AddWriter(writer->handle());
     return writer;
+  }
+
+  /// A topic for which CreateWriter was called.
+  struct Written {
+    std::string ros_name;
+    bool sole_writer = false;
+  };
+  const std::vector<Written>& written() const { return written_; }
+
+  /// Where lines of the log go that concern the whole node; NodeLog sets it.
+  using Log = std::function<void(Severity, std::string_view)>;
+  void SetLog(Log log) { log_ = std::move(log); }
+  void WriteLog(Severity severity, std::string_view text) const {
+    if (log_) log_(severity, text);
   }
 
   /// The name under which this node uses a topic of the table. Throws InputError where the table
@@ -92,6 +112,7 @@ class Participant {
   std::string ResolvedName(std::string_view topic_name) const { return RosName(topic_name, {}); }
 
  private:
+  RawWriterTopic KeptHere(RawWriterTopic topic) const;
   std::string RosName(std::string_view topic_name, const std::string& name) const {
     return names_.Resolve(table_.At(topic_name), name);
   }
@@ -102,6 +123,8 @@ class Participant {
   std::shared_ptr<Entity> domain_;  ///< goes after the entities in it
   Entity entity_;
   RosGraph graph_;
+  std::vector<Written> written_;
+  Log log_;
   std::shared_ptr<RosClock> clock_;
   std::unique_ptr<ParameterServices> parameters_;
 };

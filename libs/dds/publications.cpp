@@ -4,21 +4,27 @@
 #include "libs/dds/publications.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
+#include "libs/dds/peers.hpp"
+#include "libs/dds/qos.hpp"
 #include "libs/dds/type_idl.hpp"
 
 namespace palpate::dds {
 
 namespace {
 
-using Guid = std::array<std::uint8_t, 16>;
-
-Guid ToArray(const dds_guid_t& guid) {
-  Guid array{};
-  std::memcpy(array.data(), guid.v, array.size());
-  return array;
+bool IsInPartition(const dds_qos_t* qos, const std::string& name) {
+  std::uint32_t count = 0;
+  char** partitions = nullptr;
+  if (!dds_qget_partition(qos, &count, &partitions)) return false;
+  bool found = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    found = found || name == partitions[i];
+    dds_free(partitions[i]);
+  }
+  dds_free(partitions);
+  return found;
 }
 
 Publication PublicationOf(const dds_builtintopic_endpoint_t& endpoint) {
@@ -30,6 +36,8 @@ Publication PublicationOf(const dds_builtintopic_endpoint_t& endpoint) {
   publication.has_key = (publication.guid.back() & kKindBits) == kWriterWithKey;
   publication.dds_topic = endpoint.topic_name;
   publication.dds_type = endpoint.type_name;
+  publication.participant = ToArray(endpoint.participant_key);
+  publication.this_host_only = IsInPartition(endpoint.qos, PartitionOfThisHost());
   dds_reliability_kind_t reliability{};
   if (dds_qget_reliability(endpoint.qos, &reliability, nullptr) &&
       reliability == DDS_RELIABILITY_BEST_EFFORT) {

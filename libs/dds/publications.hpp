@@ -24,8 +24,10 @@ struct Publication {
   std::string dds_type;
   Reliability reliability = Reliability::kReliable;
   Durability durability = Durability::kVolatile;
-  std::uint32_t depth = 0;  ///< 0: keeps all
-  bool has_key = false;     ///< of its type
+  std::uint32_t depth = 0;                     ///< 0: keeps all
+  bool has_key = false;                        ///< of its type
+  bool this_host_only = false;                 ///< in PartitionOfThisHost()
+  std::array<std::uint8_t, 16> participant{};  ///< its GUID
   /// Structure of its type as OMG IDL; empty where it sends none, as ROS 2's writers do.
   std::string omg_idl;
 

@@ -3,8 +3,12 @@
 
 #include "libs/dds/qos.hpp"
 
+#include <array>
 #include <cmath>
-#include <string_view>
+#include <string>
+
+#include "libs/dds/host.hpp"
+#include "libs/dds/peers.hpp"
 
 namespace palpate::dds {
 
@@ -34,14 +38,17 @@ Qos EndpointQos(const TopicSettings& topic) {
 }  // namespace
 
 Qos ParticipantQos() {
-  constexpr std::string_view kEnclave = "enclave=/;";
+  const std::string user_data = "enclave=/;" + ToUserData(ThisProcess());
   Qos qos(dds_create_qos());
-  dds_qset_userdata(qos.get(), kEnclave.data(), kEnclave.size());
+  dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   return qos;
 }
 
+std::string PartitionOfThisHost() { return "local:" + ThisHost().id; }
+
 Qos WriterQos(const TopicSettings& topic) {
   Qos qos = EndpointQos(topic);
+  if (topic.this_host_only) dds_qset_partition1(qos.get(), PartitionOfThisHost().c_str());
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (topic.durability == Durability::kTransientLocal) {
     // What late joiners get is governed by this one, not by the history.
@@ -51,6 +58,14 @@ Qos WriterQos(const TopicSettings& topic) {
   return qos;
 }
 
-Qos ReaderQos(const TopicSettings& topic) { return EndpointQos(topic); }
+Qos ReaderQos(const TopicSettings& topic) {
+  Qos qos = EndpointQos(topic);
+  if (topic.this_host_only) {
+    const std::string here = PartitionOfThisHost();
+    std::array<const char*, 2> partitions{"", here.c_str()};
+    dds_qset_partition(qos.get(), partitions.size(), partitions.data());
+  }
+  return qos;
+}
 
 }  // namespace palpate::dds

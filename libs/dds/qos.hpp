@@ -6,6 +6,7 @@
 #include <dds/dds.h>
 
 #include <memory>
+#include <string>
 
 #include "libs/dds/topic_table.hpp"
 
@@ -18,10 +19,14 @@ struct QosDeleter {
 /// Owned settings of an entity, ready for dds_create_...
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
-/// What ROS 2 nodes expect of a participant.
+/// What ROS 2 nodes expect of a participant, and what it says about its process (peers.hpp).
 Qos ParticipantQos();
 
-/// The row of the topic table as QoS; XCDR1 always, never autodispose (as ROS 2 has it).
+/// The partition in which only processes of this host are.
+std::string PartitionOfThisHost();
+
+/// The row of the topic table as QoS; XCDR1 always, never autodispose (as ROS 2 has it). With
+/// this_host_only the writer is in PartitionOfThisHost() alone, the reader in the default one too.
 Qos WriterQos(const TopicSettings& topic);
 Qos ReaderQos(const TopicSettings& topic);
 

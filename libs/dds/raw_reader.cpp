@@ -27,6 +27,7 @@ Qos RawReaderQos(const RawTopic& topic) {
   settings.reliability = topic.reliability;
   settings.durability = topic.durability;
   settings.depth = kDepth;
+  settings.this_host_only = topic.this_host_only;
   Qos qos = ReaderQos(settings);
   constexpr std::array<dds_data_representation_id_t, 2> kAny{DDS_DATA_REPRESENTATION_XCDR1,
                                                              DDS_DATA_REPRESENTATION_XCDR2};

@@ -21,7 +21,8 @@ struct RawTopic {
   std::string dds_type;   ///< "palpate_msgs::msg::dds_::ForceArray_"
   Reliability reliability = Reliability::kReliable;
   Durability durability = Durability::kVolatile;
-  bool has_key = false;  ///< of its type
+  bool has_key = false;         ///< of its type
+  bool this_host_only = false;  ///< also in PartitionOfThisHost()
 };
 
 /// Reads messages of any type as CDR, but those of its own participant. Whoever gets them is called

@@ -22,6 +22,7 @@ Qos RawWriterQos(const RawWriterTopic& topic) {
   settings.reliability = topic.reliability;
   settings.durability = topic.durability;
   settings.depth = topic.depth;
+  settings.this_host_only = topic.this_host_only;
   Qos qos = WriterQos(settings);
   const dds_data_representation_id_t representation =
       topic.is_xcdr2 ? DDS_DATA_REPRESENTATION_XCDR2 : DDS_DATA_REPRESENTATION_XCDR1;

@@ -28,6 +28,7 @@ struct RawWriterTopic {
   /// is transient-local, because a late joiner gets the last ones of every instance.
   bool has_key = false;
   bool is_xcdr2 = false;  ///< encoding of all messages; else XCDR1
+  bool this_host_only = false;
 };
 
 /// Writes messages of any type that are CDR already.

@@ -68,6 +68,25 @@ TopicSettings ReadTopic(const ConfigNode& node) {
   return topic;
 }
 
+/// Sets a mark in the rows that a list of names holds.
+void ReadMarks(const ConfigNode* list, bool TopicSettings::*mark,
+               std::vector<TopicSettings>* topics) {
+  if (list == nullptr) return;
+  if (list->kind != ConfigNode::Kind::kList) Refuse(*list, "must be a list of names of topics");
+  for (const ConfigNode& item : list->items) {
+    const std::string name = ReadText(item);
+    std::vector<std::string> names;
+    bool found = false;
+    for (TopicSettings& topic : *topics) {
+      names.push_back(topic.name);
+      if (topic.name != name) continue;
+      topic.*mark = true;
+      found = true;
+    }
+    if (!found) Refuse(item, "topic '" + name + "' is not in the table" + DidYouMean(name, names));
+  }
+}
+
 }  // namespace
 
 TopicTable::TopicTable(std::vector<TopicSettings> topics) : topics_(std::move(topics)) {
@@ -92,10 +111,14 @@ const TopicSettings& TopicTable::At(std::string_view name) const {
 TopicTable ReadTopicTable(const ConfigNode& node) {
   MapReader map(node);
   const ConfigNode& list = map.Require("topics");
+  const ConfigNode* sole_writer = map.Optional("sole_writer");
+  const ConfigNode* raw = map.Optional("raw");
   map.Finish();
   if (list.kind != ConfigNode::Kind::kList) Refuse(list, "must be a list of topics");
   std::vector<TopicSettings> topics;
   for (const ConfigNode& item : list.items) topics.push_back(ReadTopic(item));
+  ReadMarks(sole_writer, &TopicSettings::sole_writer, &topics);
+  ReadMarks(raw, &TopicSettings::raw, &topics);
   return TopicTable(std::move(topics));
 }
 

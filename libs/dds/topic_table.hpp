@@ -25,7 +25,10 @@ struct TopicSettings {
   std::optional<double> rate_hz;     ///< nominal; absent: now and then
   std::optional<double> deadline_s;  ///< promised by writers and asked for by readers
   bool recorded = true;
-  bool global = false;  ///< ROS 2 knows it under this name in every namespace
+  bool global = false;          ///< ROS 2 knows it under this name in every namespace
+  bool sole_writer = false;     ///< one process alone may write it (SoleWriters)
+  bool raw = false;             ///< so large that dds.remote_raw may keep it on its host
+  bool this_host_only = false;  ///< not in the file: what Participant makes of `raw`
 };
 
 /// The one table of all topics.

@@ -9,7 +9,11 @@ namespace {
 
 template <typename T>
 TopicNameAndType NameAndType(const Topic<T>& topic) {
-  return {topic.name, idl::MessageTraits<T>::Descriptor().m_typename};
+  const dds_topic_descriptor_t& type = idl::MessageTraits<T>::Descriptor();
+  const auto& information = type.type_information;
+  return {topic.name,
+          type.m_typename,
+          {reinterpret_cast<const char*>(information.data), information.sz}};
 }
 
 }  // namespace
@@ -42,6 +46,7 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kTrueMeshStateTopic),
           NameAndType(kBenchStateTopic),
           NameAndType(kComponentStatusTopic),
+          NameAndType(kClockExchangeTopic),
           NameAndType(kDiagnosticsTopic),
           NameAndType(kRosoutTopic),
           NameAndType(kClockTopic),

@@ -13,6 +13,7 @@
 #include "palpate_msgs/msg/CalibrationRequest.hpp"
 #include "palpate_msgs/msg/CalibrationStatus.hpp"
 #include "palpate_msgs/msg/CameraSetup.hpp"
+#include "palpate_msgs/msg/ClockExchange.hpp"
 #include "palpate_msgs/msg/ComponentStatus.hpp"
 #include "palpate_msgs/msg/ContactArray.hpp"
 #include "palpate_msgs/msg/ForceArray.hpp"
@@ -81,6 +82,8 @@ inline constexpr Topic<idl::palpate_msgs::MeshState> kTrueMeshStateTopic{"/truth
 inline constexpr Topic<idl::palpate_msgs::BenchState> kBenchStateTopic{"/truth/bench_state"};
 inline constexpr Topic<idl::palpate_msgs::ComponentStatus> kComponentStatusTopic{
     "/component_status"};
+/// Times of all processes, to measure the offsets between the clocks of hosts.
+inline constexpr Topic<idl::palpate_msgs::ClockExchange> kClockExchangeTopic{"/clock_exchange"};
 inline constexpr Topic<idl::diagnostic_msgs::DiagnosticArray> kDiagnosticsTopic{"/diagnostics"};
 inline constexpr Topic<idl::rcl_interfaces::Log> kRosoutTopic{"/rosout"};
 /// What nodes with use_sim_time take for now.
@@ -95,6 +98,7 @@ inline constexpr Topic<idl::std_msgs::String> kRobotDescriptionTopic{"/robot_des
 struct TopicNameAndType {
   std::string_view name;
   std::string_view dds_type;
+  std::string_view type_information;  ///< structure of the type, hashed (XTypes 1.3, 7.6.3.2.2)
 };
 
 /// All of the above.

@@ -59,7 +59,7 @@ THIRD_PARTY = [
     (re.compile(r"(?:suitesparse/|SuiteSparse|cholmod|umfpack|amd\.h|colamd\.h|camd\.h|ccolamd|spqr"
                 r"|klu\.h|Eigen/(?:Cholmod|UmfPack|KLU|SPQR)Support)"),
      {"fem"}, "SuiteSparse only in libs/fem: use fem::SparseSolver"),
-    (re.compile(r"tinyxml2"), {"fem"}, "tinyxml2 only in libs/fem"),
+    (re.compile(r"tinyxml2"), {"fem", "dds"}, "tinyxml2 only in libs/fem and libs/dds"),
     (re.compile(r"zstd|lz4|libdeflate"), {"recording"},
      "zstd, lz4 and libdeflate only in libs/recording"),
     (re.compile(r"sqlite3\.h"), {"recording"},

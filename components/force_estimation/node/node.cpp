@@ -144,6 +144,7 @@ void ForceEstimationNode::TakeJointStates() {
     CableReading reading;
     const Status status = dds::FromJointState(message, cable_names_, &reading);
     if (status.ok()) {
+      reading.stamp_ns = participant_.clock()->CableStampOfFrames_ns(reading.stamp_ns);
       stamp_ns = reading.stamp_ns;
       cables_.Add(std::move(reading));
     } else {
@@ -208,7 +209,8 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
 }
 
 void ForceEstimationNode::Accept(FrameInput input) {
-  const Status status = FrameGate::CheckAge(input.head, participant_.Now_ns(), config_.max_age_s);
+  const Status status =
+      FrameGate::CheckAge(input.head, participant_.clock()->NowOfFrames_ns(), config_.max_age_s);
   if (!status.ok()) return Refuse(input.head, status);
   has_frame_ = true;
   input.new_sequence = std::exchange(sequence_pending_, false);

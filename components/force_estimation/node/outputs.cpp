@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "libs/core/seconds.hpp"
 
 namespace palpate::force_estimation {
 
@@ -71,7 +72,7 @@ void Outputs::Answer(const FrameHead& head, dds::Message<idl::palpate_msgs::Forc
 
 void Outputs::Send(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray>& message) {
   message->counter = forces_counter_++;
-  message->age_s = 1e-9 * static_cast<double>(participant_.Now_ns() - head.stamp_ns);
+  message->age_s = NsToSeconds(participant_.clock()->NowOfFrames_ns() - head.stamp_ns);
   message->latency_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - head.taken).count();
   failed_ += forces_.Write(message) ? 0 : 1;

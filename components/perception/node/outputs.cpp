@@ -31,7 +31,7 @@ void Outputs::Publish(const FrameOutcome& outcome, FrameSet::Time taken) {
   report_ = ToReport(outcome);
   contacts_ = ToContactArray(outcome);
   last_stamp_ns_ = outcome.stamp_ns;
-  report_->age_s = NsToSeconds(clock_->Now_ns() - outcome.stamp_ns);
+  report_->age_s = NsToSeconds(clock_->NowOfFrames_ns() - outcome.stamp_ns);
   report_->latency_s = SecondsSince(taken);
   latencies_s_.push_back(report_->latency_s);
   Send();

@@ -34,7 +34,8 @@ dds::RawTopic RawTopicOf(const dds::Publication& publication) {
           .dds_type = publication.dds_type,
           .reliability = publication.reliability,
           .durability = publication.durability,
-          .has_key = publication.has_key};
+          .has_key = publication.has_key,
+          .this_host_only = publication.this_host_only};
 }
 
 }  // namespace

@@ -211,8 +211,10 @@ TEST(Publish, SaysWhyAParticipantCannotBeMade) {
 TEST(Publish, TheConfigurationsThatWeShipAreUnderstood) {
   const std::string folder = "file://" PALPATE_SOURCE_DIR "/config/cyclonedds/";
   EXPECT_EQ(StartFailure((folder + "one_host.xml").c_str(), 198), "started");
-  EXPECT_EQ(StartFailure((folder + "two_hosts.xml").c_str(), 197), "started");
+  EXPECT_EQ(StartFailure((folder + "lan.xml").c_str(), 197), "started");
   EXPECT_EQ(StartFailure((folder + "default.xml").c_str(), 196), "started");
+  EXPECT_EQ(StartFailure((folder + "jumbo_lan.xml").c_str(), 193), "started");
+  EXPECT_EQ(StartFailure((folder + "lossy_link.xml").c_str(), 192), "started");
 }
 
 /// Two participants in one domain, one of which goes first; whose settings the domain has.
@@ -232,6 +234,24 @@ TEST(Publish, BuiltInSettingsHoldWhereTheUserGivesNone) {
   EXPECT_EQ(JoinTwice("file://" PALPATE_SOURCE_DIR "/config/cyclonedds/one_host.xml", 195),
             "by CYCLONEDDS_URI");
   EXPECT_EQ(JoinTwice("", 195), "built-in");
+}
+
+TEST(Publish, SettingsThatContradictEachOtherAreRefusedAtTheStart) {
+  const CycloneUri uri(
+      "<Domain><SharedMemory><Enable>true</Enable></SharedMemory><Security/></Domain>");
+  EXPECT_THROW(Participant({.domain_id = 191, .node_name = "node"}, BuiltInTable()), InputError);
+}
+
+TEST(Publish, TheEnvironmentNamesTheInterface) {
+  const std::string lan = "file://" PALPATE_SOURCE_DIR "/config/cyclonedds/lan.xml";
+  setenv("PALPATE_INTERFACE", "lo", 1);
+  EXPECT_EQ(StartFailure(lan.c_str(), 190), "started");
+  EXPECT_EQ(JoinTwice("", 189), "built-in");
+  setenv("PALPATE_INTERFACE", "127.0.0.1", 1);
+  EXPECT_EQ(StartFailure(lan.c_str(), 188), "started");
+  setenv("PALPATE_INTERFACE", "no_such_one", 1);
+  EXPECT_THAT(StartFailure(lan.c_str(), 187), testing::HasSubstr("network interface"));
+  unsetenv("PALPATE_INTERFACE");
 }
 
 TEST(Publish, ADomainThatWasJoinedWithoutThemKeepsItsSettings) {

@@ -74,6 +74,16 @@ TEST(TopicTable, ReadsEveryColumn) {
   EXPECT_TRUE(Parse(Replaced("recorded: false", "recorded: false, global: true")).At("/a").global);
 }
 
+TEST(TopicTable, ListsMarkRows) {
+  const std::string marked = std::string(kRow) + "sole_writer: [/a]\nraw: [/a]\n";
+  EXPECT_TRUE(Parse(marked).At("/a").sole_writer);
+  EXPECT_TRUE(Parse(marked).At("/a").raw);
+  EXPECT_FALSE(Parse(kRow).At("/a").sole_writer);
+  EXPECT_THAT(RefusalOf(std::string(kRow) + "raw: [/b]\n"),
+              HasSubstr("t.yaml:3:7: key 'raw[0]': topic '/b' is not in the table"));
+  EXPECT_THAT(RefusalOf(std::string(kRow) + "raw: /a\n"), HasSubstr("list of names"));
+}
+
 TEST(TopicTable, RefusesWhatItCannotRead) {
   EXPECT_THAT(RefusalOf(Replaced("depth", "dept")), HasSubstr("depth"));
   EXPECT_THAT(RefusalOf(Replaced("depth: 5", "depth: 0")), HasSubstr("t.yaml:2"));
