@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "libs/core/error.hpp"
@@ -90,11 +91,14 @@ void HealthReporter::ExchangeClocks() {
     if (topic.ros_name == frames || topic.ros_name == cables) stamped.push_back(topic.ros_name);
   }
   clock_offsets_.Send(stamped);
-  const auto ns_of = [&](const std::string& topic) {
-    const auto offset = clock_offsets_.Of(topic);
+  const auto ns_of = [](const std::optional<ClockOffset>& offset) {
     return offset ? std::llround(1e9 * offset->offset_s) : 0LL;
   };
-  clock_->SetOffsets(ns_of(frames), ns_of(cables));
+  const auto of_frames = clock_offsets_.Of(frames);
+  const auto of_cables = clock_offsets_.Of(cables);
+  // Where one of the two is not known, stamps of cable inputs stay as they are.
+  const bool are_known = of_frames && of_cables;
+  clock_->SetOffsets(ns_of(of_frames), ns_of(are_known ? of_cables : of_frames));
 }
 
 HealthReporter::KeysAndValues HealthReporter::ClockValues() const {

@@ -18,10 +18,14 @@ constexpr auto kLease = std::chrono::seconds(22);
 /// "rt/forces" -> "/forces"
 std::string RosName(const std::string& dds_topic) { return dds_topic.substr(2); }
 
-bool IsThisProcess(const ProcessIdentity& process) {
+/// MayRun() knows whether it runs: not of another machine, nor of another container.
+bool IsNumberedHere(const ProcessIdentity& process) {
   const ProcessIdentity own = ThisProcess();
-  return process.host.id == own.host.id && process.process_id == own.process_id &&
-         process.process_namespace == own.process_namespace;
+  return process.host.id == own.host.id && process.process_namespace == own.process_namespace;
+}
+
+bool IsThisProcess(const ProcessIdentity& process) {
+  return IsNumberedHere(process) && process.process_id == ThisProcess().process_id;
 }
 
 std::string Named(const std::optional<ProcessIdentity>& process) {
@@ -68,7 +72,7 @@ std::optional<WriterConflict> SoleWriters::Find(Clock::time_point now) {
     if (peer->second && (IsThisProcess(*peer->second) || !MayRun(*peer->second))) continue;
     const auto known = first_seen_.find(guid);
     seen[guid] = known == first_seen_.end() ? now : known->second;
-    const bool is_sure = peer->second && peer->second->host.id == ThisHost().id;
+    const bool is_sure = peer->second && IsNumberedHere(*peer->second);
     const bool came_later = (is_sure || now - seen[guid] > kLease) &&
                             CameLater(publication.participant, peer->second, now);
     if (conflict && (conflict->came_later || !came_later)) continue;

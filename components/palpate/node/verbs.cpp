@@ -10,6 +10,7 @@
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/node/demo/demo_verb.hpp"
+#include "components/palpate/node/doctor/doctor_verb.hpp"
 #include "components/palpate/node/play/play_verb.hpp"
 #include "components/palpate/node/record/record_verb.hpp"
 #include "components/palpate/node/topics/node_verbs.hpp"
@@ -28,9 +29,10 @@ namespace palpate::command {
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
       DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
-      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     TopicVerb(),
-      NodeVerb(),     ParamVerb(),  RecordVerb(),   PlayVerb(),      RepairVerb(),
-      ExportVerb(),   InfoVerb(),   ReferenceVerb()};
+      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     DoctorVerb(),
+      TopicVerb(),    NodeVerb(),   ParamVerb(),    RecordVerb(),    PlayVerb(),
+      RepairVerb(),   ExportVerb(), InfoVerb(),     ReferenceVerb(),
+  };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -116,6 +117,30 @@ TEST(RosClock, AgesAreByTheClockThatStampsTheFrames) {
   EXPECT_EQ(clock.CableStampOfFrames_ns(5), 2'000'000'005);
 }
 
+/// A camera's host that is 2.5 s ahead, and a robot's driver there.
+TEST(HealthReporter, GivesTheNodeTheClockOfTheFrames) {
+  constexpr std::int64_t kAhead_ns = 2'500'000'000;
+  TestNode model("model");
+  TestNode camera("camera");
+  HealthReporter health(model.participant, "force_estimation", SteadyClock::now());
+  ClockOffsets other(camera.participant, {"b", "lab2"}, [] { return WallNow_ns() + kAhead_ns; });
+  RosClock& clock = *model.participant.clock();
+  const auto ahead_s = [&] {
+    return 1e-9 * static_cast<double>(clock.NowOfFrames_ns() - clock.Now_ns());
+  };
+  model.loop.Every(std::chrono::milliseconds(20), [&] {
+    health.Report(Status::Ok(), {}, {}, SteadyClock::now());
+    other.Send({"/camera/frame_info"});
+  });
+  ASSERT_TRUE(model.WaitFor([&] { return std::abs(ahead_s()) > 1.0; }));
+  EXPECT_NEAR(ahead_s(), 2.5, 0.5);
+  // The clock of the cable inputs is not known.
+  EXPECT_EQ(clock.CableStampOfFrames_ns(5), 5);
+  auto cables = model.participant.CreateWriter(kJointStatesTopic);
+  ASSERT_TRUE(model.WaitFor([&] { return clock.CableStampOfFrames_ns(5) != 5; }));
+  EXPECT_NEAR(1e-9 * static_cast<double>(clock.CableStampOfFrames_ns(0)), 2.5, 0.5);
+}
+
 /// A participant that says it is `process`, with a writer of /forces.
 struct OtherProcess {
   explicit OtherProcess(const ProcessIdentity& process, const std::string& ros_name = "/forces") {
@@ -175,6 +200,11 @@ TEST(SoleWriters, OneOfAnotherHostMayBeAPredecessorThatDdsHasNotDroppedYet) {
   EXPECT_FALSE(ConflictWith(Elsewhere(), std::chrono::seconds(1))->came_later);
   EXPECT_TRUE(
       ConflictWith(Elsewhere(), std::chrono::seconds(1), std::chrono::seconds(23))->came_later);
+  // Nor can a process of another container be looked after.
+  ProcessIdentity container = ThisProcess();
+  container.process_namespace = "pid:[1]";
+  container.start_ns -= 1;
+  EXPECT_FALSE(ConflictWith(container, std::chrono::seconds(1))->came_later);
 }
 
 TEST(SoleWriters, OtherNamespacesAndEndedProcessesAreNoConflict) {

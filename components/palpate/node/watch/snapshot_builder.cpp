@@ -8,6 +8,7 @@
 #include <limits>
 #include <string_view>
 
+#include "libs/core/text.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -42,6 +43,30 @@ std::string ValueOf(const std::vector<std::pair<std::string, std::string>>& valu
     if (known == key) return value;
   }
   return {};
+}
+
+/// Adds what one process says of the clocks of other hosts.
+void AddClocks(const std::vector<std::pair<std::string, std::string>>& values,
+               std::vector<ClockState>* clocks) {
+  constexpr std::string_view kOffset = "clock_offset_s.";
+  for (const auto& [key, value] : values) {
+    ClockState clock;
+    if (!key.starts_with(kOffset) || !ParseFinite(value, &clock.offset_s)) continue;
+    clock.host = ValueOf(values, "host");
+    clock.other_host = key.substr(kOffset.size());
+    if (!ParseFinite(ValueOf(values, "clock_offset_bound_s." + clock.other_host), &clock.bound_s)) {
+      continue;
+    }
+    const auto known = std::find_if(clocks->begin(), clocks->end(), [&](const ClockState& one) {
+      return (one.host == clock.host && one.other_host == clock.other_host) ||
+             (one.host == clock.other_host && one.other_host == clock.host);
+    });
+    if (known == clocks->end()) {
+      clocks->push_back(clock);
+    } else if (clock.bound_s < known->bound_s) {
+      *known = clock;
+    }
+  }
 }
 
 template <typename Sequence>
@@ -187,6 +212,7 @@ SystemSnapshot SnapshotBuilder::At(double now_s, std::int64_t time_ns) const {
     if (const auto values = values_.find(name); values != values_.end()) {
       state.values = values->second;
     }
+    if (!state.IsSilent()) AddClocks(state.values, &snapshot.clocks);
     state.waiting_for = ValueOf(state.values, "waiting_for");
     std::erase_if(state.values, [](const auto& value) { return value.first == "waiting_for"; });
     if (name == "force_estimation" && snapshot.model_error) {

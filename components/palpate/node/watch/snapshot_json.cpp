@@ -128,6 +128,13 @@ Json ToJson(const ProcessState& state) {
           {"diagnostics", values}};
 }
 
+Json ToJson(const ClockState& clock) {
+  return {{"host", clock.host},
+          {"other_host", clock.other_host},
+          {"offset_s", Number(clock.offset_s)},
+          {"bound_s", Number(clock.bound_s)}};
+}
+
 Json ToJson(const OtherDiagnosis& other) {
   return {{"name", other.name},
           {"level", other.level},
@@ -150,13 +157,18 @@ Json ListOf(const std::vector<State>& states) {
 }  // namespace
 
 std::string SnapshotJson(const SystemSnapshot& snapshot) {
-  const Json json = {
-      {"time_utc", UtcTextOfNs(snapshot.time_ns)},   {"domain", snapshot.domain_id},
-      {"forces", OrNull(snapshot.forces)},           {"model_error", OrNull(snapshot.model_error)},
-      {"mesh_state", OrNull(snapshot.mesh)},         {"perception", OrNull(snapshot.perception)},
-      {"camera", OrNull(snapshot.camera)},           {"cables", OrNull(snapshot.cables)},
-      {"calibration", OrNull(snapshot.calibration)}, {"processes", ListOf(snapshot.processes)},
-      {"other_diagnostics", ListOf(snapshot.others)}};
+  const Json json = {{"time_utc", UtcTextOfNs(snapshot.time_ns)},
+                     {"domain", snapshot.domain_id},
+                     {"forces", OrNull(snapshot.forces)},
+                     {"model_error", OrNull(snapshot.model_error)},
+                     {"mesh_state", OrNull(snapshot.mesh)},
+                     {"perception", OrNull(snapshot.perception)},
+                     {"camera", OrNull(snapshot.camera)},
+                     {"cables", OrNull(snapshot.cables)},
+                     {"calibration", OrNull(snapshot.calibration)},
+                     {"clocks", ListOf(snapshot.clocks)},
+                     {"processes", ListOf(snapshot.processes)},
+                     {"other_diagnostics", ListOf(snapshot.others)}};
   // Texts of other programs may be no UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

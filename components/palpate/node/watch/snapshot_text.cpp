@@ -136,6 +136,17 @@ std::string ProcessesText(const SystemSnapshot& snapshot) {
   return text;
 }
 
+std::string ClocksText(const SystemSnapshot& snapshot) {
+  std::string text;
+  for (const ClockState& clock : snapshot.clocks) {
+    text +=
+        fmt::format("{}{} is {:.1f} ms {} {}, +- {:.1f} ms", text.empty() ? "CLOCKS       " : "; ",
+                    clock.other_host, 1e3 * std::abs(clock.offset_s),
+                    clock.offset_s < 0.0 ? "behind" : "ahead of", clock.host, 1e3 * clock.bound_s);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string OthersText(const SystemSnapshot& snapshot) {
   if (snapshot.others.empty()) return {};
   std::string text = "OTHER DIAGNOSTICS\n";
@@ -159,7 +170,7 @@ std::string SnapshotText(const SystemSnapshot& snapshot) {
   }
   text += ForcesText(snapshot) + ModelErrorText(snapshot) + MeshText(snapshot) +
           PerceptionText(snapshot) + CameraText(snapshot) + CablesText(snapshot) +
-          CalibrationText(snapshot);
+          CalibrationText(snapshot) + ClocksText(snapshot);
   if (!snapshot.processes.empty()) text += ProcessesText(snapshot);
   return text + OthersText(snapshot);
 }

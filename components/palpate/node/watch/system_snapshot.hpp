@@ -134,6 +134,14 @@ struct CalibrationState {
   std::uint32_t frames_wanted = 0;
 };
 
+/// What a process measured of the clock of another host.
+struct ClockState {
+  std::string host;  ///< of the process
+  std::string other_host;
+  double offset_s = 0.0;  ///< the other host's clock minus the process's
+  double bound_s = 0.0;   ///< of the error
+};
+
 /// The whole running system at one time, as its messages tell. What has sent nothing is absent.
 struct SystemSnapshot {
   int domain_id = 0;
@@ -147,6 +155,7 @@ struct SystemSnapshot {
   std::optional<MeshShapeState> mesh;
   std::optional<CablesState> cables;
   std::optional<CalibrationState> calibration;
+  std::vector<ClockState> clocks;  ///< one for each pair of hosts, the tightest
 };
 
 }  // namespace palpate::command

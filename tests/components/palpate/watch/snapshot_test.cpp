@@ -166,6 +166,29 @@ TEST(Snapshot, AProcessThatReportsNoMoreIsSilentAndARestartIsCounted) {
   EXPECT_THAT(SnapshotText(builder.At(7.0, 0)), HasSubstr("restarts seen: 1"));
 }
 
+TEST(Snapshot, ClocksOfHostsAreThoseOfTheTightestMeasurement) {
+  SnapshotBuilder builder(0);
+  builder.Add(*Report("perception", "ok"), 1.0);
+  builder.Add(*Report("force_estimation", "ok"), 1.0);
+  builder.Add(
+      *Diagnosis("palpate_perception: perception", {{"host", "camera"},
+                                                    {"clock_offset_s.model", "0.0213"},
+                                                    {"clock_offset_bound_s.model", "0.004"}}),
+      1.0);
+  builder.Add(*Diagnosis("palpate_force_estimation: force_estimation",
+                         {{"host", "model"},
+                          {"clock_offset_s.camera", "-0.0202"},
+                          {"clock_offset_bound_s.camera", "0.0004"}}),
+              1.0);
+  const SystemSnapshot snapshot = builder.At(1.1, 0);
+  ASSERT_EQ(snapshot.clocks.size(), 1U);
+  EXPECT_THAT(SnapshotText(snapshot), HasSubstr("CLOCKS       camera is 20.2 ms behind model, "
+                                                "+- 0.4 ms\n"));
+  const Json clock = Json::parse(SnapshotJson(snapshot))["clocks"][0];
+  EXPECT_EQ(clock["host"], "model");
+  EXPECT_EQ(clock["offset_s"], -0.0202);
+}
+
 TEST(Snapshot, DiagnosticsOfOtherProgramsAreListedApart) {
   SnapshotBuilder builder(0);
   builder.Add(*Diagnosis("motor driver"), 1.0);

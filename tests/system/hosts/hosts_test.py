@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+"""The virtual system split over two or three hosts: network namespaces on one bridge.
+
+usage: hosts_test.py SOURCE_FOLDER PROGRAM_FOLDER two_hosts|three_hosts|loss_1|loss_5|cut
+
+Ends with 77, and the reason, where namespaces or losses cannot be made.
+"""
+
+import contextlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = 77
+LONGEST_START_S = 90.0
+CUT_S = 10.0
+RESUMED_WITHIN_S = 2.0
+# Depth and colour take 61 MB/s, clouds at most 12 MB/s.
+MOST_B_PER_S = 20e6
+
+
+class Skip(Exception):
+    """What the test needs is not there."""
+
+
+def call(*words):
+    """Output of a command that must succeed."""
+    result = subprocess.run(words, check=False, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise Skip(f"{' '.join(words)}: {result.stderr.strip() or result.returncode}")
+    return result.stdout
+
+
+class Network:
+    """Hosts on one bridge, each a network namespace with one interface `eth0`."""
+
+    def __init__(self, names):
+        self.tag = f"pal{os.getpid() % 100000}"
+        self.names = names
+        self.undo = contextlib.ExitStack()
+        if os.geteuid() != 0:
+            raise Skip("network namespaces need root")
+        try:
+            self._make()
+        except (Skip, FileNotFoundError) as reason:
+            self.undo.close()
+            raise Skip(f"no network namespaces: {reason}") from reason
+
+    def _make(self):
+        bridge = f"{self.tag}b"
+        call("ip", "link", "add", bridge, "type", "bridge")
+        self.undo.callback(subprocess.run, ["ip", "link", "del", bridge], check=False)
+        call("ip", "link", "set", bridge, "up")
+        for number, name in enumerate(self.names):
+            space = self.space(name)
+            call("ip", "netns", "add", space)
+            self.undo.callback(subprocess.run, ["ip", "netns", "del", space], check=False)
+            call("ip", "link", "add", self.outside(name), "type", "veth", "peer", "name", "eth0",
+                 "netns", space)
+            call("ip", "link", "set", self.outside(name), "master", bridge, "up")
+            call("ip", "-n", space, "addr", "add", f"{self.address(number)}/24", "dev", "eth0")
+            call("ip", "-n", space, "link", "set", "eth0", "up")
+            call("ip", "-n", space, "link", "set", "lo", "up")
+
+    def space(self, name):
+        return f"{self.tag}{name}"
+
+    def outside(self, name):
+        return f"{self.tag}{name[0]}"
+
+    @staticmethod
+    def address(number):
+        return f"10.213.77.{number + 1}"
+
+    def lose(self, percent):
+        """Drops that share of the packets that come to each host."""
+        for name in self.names:
+            space = self.space(name)
+            try:
+                call("ip", "netns", "exec", space, "nft", "add", "table", "ip", "loss")
+                call("ip", "netns", "exec", space, "nft", "add", "chain", "ip", "loss", "in",
+                     "{ type filter hook input priority 0 ; }")
+                call("ip", "netns", "exec", space, "nft", "add", "rule", "ip", "loss", "in",
+                     "iifname", "eth0", "numgen", "random", "mod", "1000", "<",
+                     str(10 * percent), "drop")
+            except Skip as nft:
+                self.undo.close()
+                raise Skip(f"losses need nftables: {nft}") from nft
+
+    def cut(self, name, is_cut):
+        call("ip", "link", "set", self.outside(name), "down" if is_cut else "up")
+
+    def sent_by(self, name):
+        """Bytes that a host has sent."""
+        return int(call("ip", "netns", "exec", self.space(name), "cat",
+                        "/sys/class/net/eth0/statistics/tx_bytes"))
+
+
+class System:
+    """The processes, and what `palpate watch` says about them on the model host."""
+
+    def __init__(self, network, source, programs, folder, settings):
+        self.network, self.programs, self.folder = network, programs, folder
+        self.processes = []
+        peers = ",".join(network.address(number) for number in range(len(network.names)))
+        self.environment = os.environ | {
+            "CYCLONEDDS_URI": f"file://{source}/config/cyclonedds/{settings}.xml",
+            "PALPATE_INTERFACE": "eth0", "PALPATE_PEERS": peers, "ROS_DOMAIN_ID": "88"}
+        self.scenario = source / "config/scenarios/sensing.yaml"
+
+    def command(self, host, program, *words):
+        environment = self.environment | {"PALPATE_HOST": host}
+        return (["ip", "netns", "exec", self.network.space(host), self.programs / program, *words],
+                {"env": environment, "cwd": self.folder})
+
+    def start(self, host, program, *words):
+        line, options = self.command(host, program, *words)
+        with open(self.folder / f"{program}.log", "wb") as log:
+            process = subprocess.Popen(line, stdout=log, stderr=log, **options)
+        self.processes.append((program, process))
+
+    def run(self, host, program, *words):
+        line, options = self.command(host, program, *words)
+        return subprocess.run(line, check=True, capture_output=True, text=True, **options).stdout
+
+    def start_all(self):
+        self.run("camera", "palpate", "simulate", "four_leg", "--scenario", self.scenario,
+                 "--seed", "1", "--tell-camera-pose", "--out", "exp")
+        pose = re.search(r"^T_robot_camera: (.*)$",
+                         (self.folder / "exp/experiment.yaml").read_text(encoding="utf-8"),
+                         re.MULTILINE)[1]
+        raw = "dds.remote_raw=false"
+        self.start("camera", "palpate-virtual-robot", "four_leg", "--scenario", self.scenario)
+        self.start("camera", "palpate-virtual-camera", "four_leg", "--scenario", self.scenario)
+        self.start("camera", "palpate-capture", "--camera", "127.0.0.1", "--set", raw)
+        self.start("camera", "palpate-perception", "--camera-pose", pose, "--set", raw)
+        self.start("model", "palpate-force-estimation", "four_leg", "--camera-pose", pose)
+
+    def states(self, limit_s):
+        """One state of the system after the other, ten a second."""
+        line, options = self.command("model", "palpate", "watch", "--json", "--rate", "10")
+        watch = subprocess.Popen(line, stdout=subprocess.PIPE, text=True, **options)
+        begin = time.monotonic()
+        try:
+            for text in watch.stdout:
+                if time.monotonic() - begin > limit_s:
+                    return
+                yield json.loads(text)
+        finally:
+            watch.terminate()
+            watch.wait()
+
+    def wait_for(self, condition, what, limit_s=LONGEST_START_S):
+        """The first state for which `condition` holds."""
+        state = None
+        for state in self.states(limit_s):
+            if condition(state):
+                return state
+        raise AssertionError(f"{what} did not come in {limit_s} s; the last state: "
+                             f"{json.dumps(state)[:2000]}")
+
+    def stop(self):
+        for _, process in self.processes:
+            process.terminate()
+        for program, process in self.processes:
+            process.wait(timeout=20)
+            print(f"--- {program}: exit code {process.returncode}")
+            print((self.folder / f"{program}.log").read_text(encoding="utf-8")[-1500:])
+
+
+def forces_flow(state):
+    forces = state["forces"]
+    return forces is not None and forces["silence_s"] < 0.5 and forces["rate_hz"] > 5.0
+
+
+def check_steady(system):
+    """Forces for ten seconds, clocks measured, and raw images stay on the camera's host."""
+    system.wait_for(lambda state: forces_flow(state) and state["clocks"], "forces and clocks")
+    sent, begin = system.network.sent_by("camera"), time.monotonic()
+    last = None
+    for last in system.states(10.0):
+        pass
+    rate = (system.network.sent_by("camera") - sent) / (time.monotonic() - begin)
+    forces = last["forces"]
+    print(f"sent by the camera host: {1e-6 * rate:.1f} MB/s; "
+          f"forces: {forces['received']} received, {forces['lost']} lost; clocks: {last['clocks']}")
+    assert rate < MOST_B_PER_S, rate
+    assert forces_flow(last), forces
+    clock = last["clocks"][0]
+    # One kernel, one clock.
+    assert abs(clock["offset_s"]) <= clock["bound_s"] + 1e-4, clock
+
+
+def check_cut(system):
+    """The link is cut for ten seconds; forces come again within two."""
+    system.wait_for(forces_flow, "forces")
+    system.network.cut("camera", True)
+    time.sleep(CUT_S)
+    states = system.states(LONGEST_START_S)
+    next(states)
+    system.network.cut("camera", False)
+    begin = time.monotonic()
+    first = next(states)["perception"]
+    for state in states:
+        perception = state["perception"]
+        if perception and (not first or perception["received"] > first["received"]):
+            break
+    seen = time.monotonic() - begin
+    for state in states:
+        if forces_flow(state) and state["forces"]["status"] != "stale":
+            break
+    resumed = time.monotonic() - begin
+    print(f"clouds {seen:.1f} s, forces {resumed:.1f} s after the link is back")
+    assert resumed < RESUMED_WITHIN_S, resumed
+
+
+def check_recorder(system):
+    """A third host records everything but the raw images, which do not cross the link."""
+    system.start("recorder", "palpate-recorder", "--out", "run.mcap", "--set",
+                 "dds.remote_raw=false")
+    check_steady(system)
+    recorder = system.processes.pop()[1]
+    recorder.terminate()
+    assert recorder.wait(timeout=30) == 0
+    contents = system.run("recorder", "palpate", "info", "run.mcap")
+    assert re.search(r"/forces\b", contents), contents
+    assert not re.search(r"image_raw \| .*Count: [1-9]", contents), contents
+
+
+CASES = {"two_hosts": (["camera", "model"], "lan", 0, check_steady),
+         "three_hosts": (["camera", "model", "recorder"], "lan", 0, check_recorder),
+         "loss_1": (["camera", "model"], "lossy_link", 1, check_steady),
+         "loss_5": (["camera", "model"], "lossy_link", 5, check_steady),
+         "cut": (["camera", "model"], "lossy_link", 0, check_cut)}
+
+
+def main():
+    source, programs = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    names, settings, loss_percent, check = CASES[sys.argv[3]]
+    try:
+        network = Network(names)
+        if loss_percent:
+            network.lose(loss_percent)
+    except Skip as reason:
+        print(f"skipped: {reason}")
+        return SKIPPED
+    with network.undo, tempfile.TemporaryDirectory() as folder:
+        system = System(network, source, programs, pathlib.Path(folder), settings)
+        try:
+            system.start_all()
+            check(system)
+        finally:
+            system.stop()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
