@@ -7,6 +7,8 @@ find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(CycloneDDS 0.10 REQUIRED)
+# Certificates and signatures of a secured domain.
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

@@ -31,7 +31,8 @@ LIBRARIES = {
     "gige_vision": {"core", "rgbd"},
     "fem": {"core", "linalg", "geometry"},
     "robot": {"core", "linalg", "geometry", "fem"},
-    "dds": {"core", "geometry", "rgbd"},
+    "security": {"core"},
+    "dds": {"core", "geometry", "rgbd", "security"},
 }
 # Which folders of a component each of its folders may include, besides itself and its subfolders.
 # Files at the component's top join the folders. A component without an entry: no circles, only.
@@ -64,6 +65,7 @@ THIRD_PARTY = [
      "zstd, lz4 and libdeflate only in libs/recording"),
     (re.compile(r"sqlite3\.h"), {"recording"},
      "SQLite only in libs/recording: use RecordedMessages"),
+    (re.compile(r"openssl/"), {"security"}, "OpenSSL only in libs/security"),
     (re.compile(r"png\.h"), {"rgbd"}, "libpng only in libs/rgbd: use rgbd/png.hpp"),
     (re.compile(r"jpeglib\.h"), {"rgbd"}, "libjpeg only in libs/rgbd: use rgbd/jpeg.hpp"),
 ]
