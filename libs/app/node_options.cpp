@@ -34,6 +34,15 @@ int DomainOfEnvironment() {
   return domain;
 }
 
+void ReplaceKeystore(const std::filesystem::path& keystore, const std::vector<Setting>& settings) {
+  if (keystore.empty()) return;
+  for (const Setting& setting : settings) {
+    if (setting.key == "dds.security") {
+      *std::get<std::filesystem::path*>(setting.value) = keystore;
+    }
+  }
+}
+
 void AddRules(const std::vector<std::string>& rules, const std::vector<Setting>& settings) {
   for (const Setting& setting : settings) {
     if (setting.key != "dds.remap") continue;
@@ -54,6 +63,17 @@ void SettleDomain(int* domain_id) {
   if (*domain_id == kDomainNotGiven) *domain_id = DomainOfEnvironment();
 }
 
+void DeclareSecurity(Arguments& arguments, std::filesystem::path* keystore) {
+  arguments.Option("--security KEYSTORE", keystore,
+                   "Keystore of a secured domain (palpate security init); without it the value of "
+                   "PALPATE_SECURITY_DIR, else the domain is not secured");
+}
+
+void SettleSecurity(const std::filesystem::path& keystore) {
+  if (keystore.empty()) return;
+  setenv("PALPATE_SECURITY_DIR", std::filesystem::absolute(keystore).c_str(), 1);
+}
+
 void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
   arguments.Option("--config", &options->config_file,
                    "Settings file (YAML); settings that it lacks keep their defaults");
@@ -62,6 +82,7 @@ void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
   arguments.Repeated("--remap FROM:=TO", &options->remap,
                      "Another name for a topic, __node or __ns, as ros2 run has it");
   DeclareDomain(arguments, &options->domain_id);
+  DeclareSecurity(arguments, &options->security);
   arguments.Choice("--log-level LEVEL", &options->log_level, {"debug", "info", "warning", "error"},
                    "Lowest severity that is logged: debug, info, warning or error");
   arguments.Flag("--print-config", &options->print_config,
@@ -82,6 +103,7 @@ bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* option
   }
   for (const std::string& assignment : options->overrides) ApplyOverride(assignment, settings);
   AddRules(options->remap, settings);
+  ReplaceKeystore(options->security, settings);
   if (!options->print_config) return true;
   std::fputs((options->markdown ? PrintMarkdown(settings) : PrintYaml(settings)).c_str(), stdout);
   return false;

@@ -14,12 +14,14 @@
 namespace palpate::app {
 
 /// The options that every process has: --config, --set, --domain, --log-level,
-/// --print-config [--markdown], --remap, beside what every program has (command_text.hpp).
+/// --print-config [--markdown], --remap, --security, beside what every program has
+/// (command_text.hpp).
 struct NodeOptions {
   std::filesystem::path config_file;  ///< empty: none
   std::string config_sha256;          ///< of that file's bytes; empty without a file
   std::vector<std::string> overrides;
   std::vector<std::string> remap;  ///< added to the setting dds.remap
+  std::filesystem::path security;  ///< replaces the setting dds.security
   int domain_id = 0;               ///< --domain, else ROS_DOMAIN_ID, else 0; 0 to 232
   std::string log_level = "info";
   bool print_config = false;
@@ -33,6 +35,13 @@ void DeclareDomain(Arguments& arguments, int* domain_id);
 /// Where --domain was not given: the domain of ROS_DOMAIN_ID, else 0. Throws InputError where
 /// ROS_DOMAIN_ID is no domain.
 void SettleDomain(int* domain_id);
+
+/// --security alone, for the same commands. Its value lands in `keystore`; SettleSecurity() must
+/// follow.
+void DeclareSecurity(Arguments& arguments, std::filesystem::path* keystore);
+
+/// Where --security was given: sets PALPATE_SECURITY_DIR of this process, and of those it starts.
+void SettleSecurity(const std::filesystem::path& keystore);
 
 /// Declares the options above; their values land in `options` when the arguments are parsed.
 void DeclareNodeOptions(Arguments& arguments, NodeOptions* options);

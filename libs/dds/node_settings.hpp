@@ -25,6 +25,8 @@ struct NodeSettings {
   std::string ros_distribution = "auto";
   std::vector<Parameter> parameters = {};  ///< all settings of the process, to be shown to ROS 2
   bool remote_raw = true;
+  std::filesystem::path security;
+  std::string identity;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
@@ -40,6 +42,12 @@ struct NodeSettings {
     v("remote_raw", remote_raw,
       "Share raw images with other hosts and with ROS 2; false: with processes of this host that "
       "have false, too");
+    v("security", security,
+      "Keystore (`palpate security init`) of a secured domain; empty: the environment variable "
+      "PALPATE_SECURITY_DIR, else ROS 2's, else the domain is not secured");
+    v("identity", identity,
+      "Who this process is in a secured domain; empty: PALPATE_SECURITY_IDENTITY, else ROS 2's "
+      "enclave, else the component's name");
   }
 };
 
@@ -66,7 +74,13 @@ TopicTable LoadTopicTable(const NodeSettings& settings, const ConfigLoader& load
 /// empty.
 GidLayout GidLayoutOf(std::string_view ros_distribution, std::string_view ros_distro);
 
-/// `node_name` holds unless the settings have another.
+/// The keystore of the settings, else of PALPATE_SECURITY_DIR, else, where ROS_SECURITY_ENABLE is
+/// "true", of ROS_SECURITY_KEYSTORE. The identity of the settings, else of
+/// PALPATE_SECURITY_IDENTITY, else of ROS_SECURITY_ENCLAVE_OVERRIDE, else `default_identity`.
+SecuritySettings SecurityOf(const NodeSettings& settings, const std::string& default_identity);
+
+/// `node_name` holds unless the settings have another. The default identity is the node's name
+/// without "palpate_".
 ParticipantSettings ParticipantOf(const NodeSettings& settings, std::string node_name,
                                   int domain_id);
 

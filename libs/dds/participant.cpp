@@ -6,16 +6,27 @@
 #include <utility>
 #include <vector>
 
+#include "libs/core/error.hpp"
 #include "libs/dds/qos.hpp"
 #include "libs/dds/ros_names.hpp"
+#include "libs/security/permissions.hpp"
 
 namespace palpate::dds {
 
 namespace {
 
 Entity CreateParticipant(const ParticipantSettings& settings) {
-  return Entity(dds_create_participant(settings.domain_id, ParticipantQos().get(), nullptr),
+  const SecuritySettings& security = settings.security;
+  if (security.enabled() && settings.domain_id > security::kLastSecuredDomain) {
+    throw InputError("domain " + std::to_string(settings.domain_id) +
+                     " cannot be secured: take one up to " +
+                     std::to_string(security::kLastSecuredDomain));
+  }
+  const Qos qos = ParticipantQos("/" + (security.enabled() ? security.identity : ""));
+  SetSecurity(security, qos.get());
+  return Entity(dds_create_participant(settings.domain_id, qos.get(), nullptr),
                 "a participant in domain " + std::to_string(settings.domain_id) +
+                    (security.enabled() ? " as '" + security.identity + "'" : "") +
                     " (is a network interface up, and CYCLONEDDS_URI right? `lo` needs multicast "
                     "or unicast peers)");
 }

@@ -19,6 +19,7 @@
 #include "libs/dds/reader.hpp"
 #include "libs/dds/ros_clock.hpp"
 #include "libs/dds/ros_graph.hpp"
+#include "libs/dds/security_qos.hpp"
 #include "libs/dds/topic_names.hpp"
 #include "libs/dds/topic_table.hpp"
 #include "libs/dds/topics.hpp"
@@ -35,6 +36,7 @@ struct ParticipantSettings {
   bool use_sim_time = false;               ///< take the time from /clock
   std::vector<Parameter> parameters = {};  ///< that its WaitSet answers for; empty: no services
   bool remote_raw = true;  ///< false: raw images stay on this host (TopicSettings::raw)
+  SecuritySettings security = {};
 };
 
 /// One process on DDS, seen by ROS 2 as one node. Makes all writers and readers, by the topic
@@ -43,8 +45,8 @@ class Participant {
  public:
   /// Where CYCLONEDDS_URI is not set, config/cyclonedds/default.xml holds. Throws RunError where
   /// DDS refuses (no network interface, too many processes, bad CYCLONEDDS_URI), InputError for
-  /// names and rules that are none (TopicNames), and for settings of Cyclone DDS that contradict
-  /// each other (domain_settings.hpp).
+  /// names and rules that are none (TopicNames), for settings of Cyclone DDS that contradict each
+  /// other (domain_settings.hpp), and for files that do not allow a secured start (SetSecurity).
   Participant(const ParticipantSettings& settings, TopicTable table);
 
   dds_entity_t handle() const { return entity_.handle(); }

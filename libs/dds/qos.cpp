@@ -37,8 +37,8 @@ Qos EndpointQos(const TopicSettings& topic) {
 
 }  // namespace
 
-Qos ParticipantQos() {
-  const std::string user_data = "enclave=/;" + ToUserData(ThisProcess());
+Qos ParticipantQos(const std::string& enclave) {
+  const std::string user_data = "enclave=" + enclave + ";" + ToUserData(ThisProcess());
   Qos qos(dds_create_qos());
   dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   return qos;

@@ -20,7 +20,8 @@ struct QosDeleter {
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
 /// What ROS 2 nodes expect of a participant, and what it says about its process (peers.hpp).
-Qos ParticipantQos();
+/// `enclave`: its name in ROS 2, "/" where not secured.
+Qos ParticipantQos(const std::string& enclave = "/");
 
 /// The partition in which only processes of this host are.
 std::string PartitionOfThisHost();

@@ -46,6 +46,15 @@ std::optional<double> OptionalPositive(MapReader& map, const std::string& key) {
   return node ? std::optional<double>(ReadNumber(*node, kPositive)) : std::nullopt;
 }
 
+std::vector<std::string> OptionalNames(MapReader& map, const std::string& key) {
+  const ConfigNode* list = map.Optional(key);
+  if (list == nullptr) return {};
+  if (list->kind != ConfigNode::Kind::kList) Refuse(*list, "must be a list of components");
+  std::vector<std::string> names;
+  for (const ConfigNode& item : list->items) names.push_back(ReadText(item));
+  return names;
+}
+
 TopicSettings ReadTopic(const ConfigNode& node) {
   MapReader map(node);
   TopicSettings topic;
@@ -64,6 +73,8 @@ TopicSettings ReadTopic(const ConfigNode& node) {
   topic.deadline_s = OptionalPositive(map, "deadline_s");
   topic.recorded = ReadBool(map.Require("recorded"));
   if (const ConfigNode* global = map.Optional("global")) topic.global = ReadBool(*global);
+  topic.writers = OptionalNames(map, "writers");
+  topic.readers = OptionalNames(map, "readers");
   map.Finish();
   return topic;
 }

@@ -29,7 +29,13 @@ struct TopicSettings {
   bool sole_writer = false;     ///< one process alone may write it (SoleWriters)
   bool raw = false;             ///< so large that dds.remote_raw may keep it on its host
   bool this_host_only = false;  ///< not in the file: what Participant makes of `raw`
+  /// Components and others that write and read it ("capture"), or kAnyComponent; access_rights.hpp.
+  std::vector<std::string> writers;
+  std::vector<std::string> readers;
 };
+
+/// In `writers` and `readers`: every component.
+inline constexpr char kAnyComponent[] = "all";
 
 /// The one table of all topics.
 class TopicTable {

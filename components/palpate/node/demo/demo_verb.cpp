@@ -9,6 +9,7 @@
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
+#include "libs/app/node_options.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -64,7 +65,11 @@ app::Verb DemoVerb() {
                              "Play a recorded beam with a weight instead, from its markers");
             arguments.Flag("--computed", &options->computed,
                            "Play the computed beam even where the measured one is available");
-            return [options] { return Demo(*options); };
+            app::DeclareSecurity(arguments, &options->keystore);
+            return [options] {
+              app::SettleSecurity(options->keystore);
+              return Demo(*options);
+            };
           }};
 }
 

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "components/palpate/node/demo/beam_demo.hpp"
 #include "components/palpate/node/demo/system_demo.hpp"
 #include "libs/app/verbs.hpp"
@@ -11,8 +14,9 @@ namespace palpate::command {
 
 struct DemoOptions {
   SystemDemoOptions system;
-  std::string recording;  ///< "beam": BeamDemo, with system.out and system.data
-  bool computed = false;  ///< BeamDemo with the computed data set
+  std::string recording;                ///< "beam": BeamDemo, with system.out and system.data
+  bool computed = false;                ///< BeamDemo with the computed data set
+  std::filesystem::path keystore = {};  ///< of a secured domain; empty: as the environment has it
 };
 
 /// `palpate demo`: SystemDemo, or BeamDemo with --recording beam or --computed. Throws InputError

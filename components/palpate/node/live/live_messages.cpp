@@ -7,6 +7,7 @@
 
 #include "libs/app/yaml.hpp"
 #include "libs/core/index.hpp"
+#include "libs/dds/access_rights.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/node_settings.hpp"
 #include "libs/dds/stamp.hpp"
@@ -26,7 +27,9 @@ dds::Participant JoinDomain(const std::string& node_name, int domain_id,
                             const std::vector<std::string>& remap) {
   dds::NodeSettings settings;
   settings.remap = remap;
-  return dds::Participant(dds::ParticipantOf(settings, node_name, domain_id),
+  dds::ParticipantSettings participant = dds::ParticipantOf(settings, node_name, domain_id);
+  participant.security = dds::SecurityOf(settings, dds::kObserver);
+  return dds::Participant(participant,
                           dds::LoadTopicTable(settings, app::LoadYaml, app::ParseYaml));
 }
 

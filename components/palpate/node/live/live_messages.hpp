@@ -17,8 +17,8 @@
 
 namespace palpate::command {
 
-/// A node with the built-in topic table. `remap`: rules as TopicNames takes them. Throws InputError
-/// for a rule that is none, RunError where DDS refuses.
+/// A node with the built-in topic table; in a secured domain an observer. `remap`: rules as
+/// TopicNames takes them. Throws InputError for a rule that is none, RunError where DDS refuses.
 dds::Participant JoinDomain(const std::string& node_name, int domain_id,
                             const std::vector<std::string>& remap = {});
 

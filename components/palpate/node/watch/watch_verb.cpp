@@ -98,6 +98,7 @@ app::Verb WatchVerb() {
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<WatchOptions>();
             app::DeclareDomain(arguments, &options->domain_id);
+            app::DeclareSecurity(arguments, &options->keystore);
             arguments.Repeated("--remap FROM:=TO", &options->remap,
                                "Another name for a topic, or __ns:=/left for all of a namespace");
             arguments.Flag("--once", &options->once,
@@ -109,6 +110,7 @@ app::Verb WatchVerb() {
             arguments.Option("--rate HZ", &options->rate_hz, "States shown per second, 0.1 to 20");
             return [options] {
               app::SettleDomain(&options->domain_id);
+              app::SettleSecurity(options->keystore);
               return Watch(*options);
             };
           }};

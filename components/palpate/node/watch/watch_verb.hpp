@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace palpate::command {
 
 struct WatchOptions {
   int domain_id = 0;
+  std::filesystem::path keystore;  ///< of a secured domain; empty: as the environment has it
   std::vector<std::string> remap;
   bool once = false;
   bool json = false;

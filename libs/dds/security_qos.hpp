@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <dds/dds.h>
+
+#include <filesystem>
+#include <string>
+
+namespace palpate::dds {
+
+/// Who a participant is in a secured domain.
+struct SecuritySettings {
+  std::filesystem::path keystore;  ///< empty: not secured
+  std::string identity;            ///< the files in keystore/enclaves/IDENTITY
+
+  bool enabled() const { return !keystore.empty(); }
+};
+
+/// Makes the participant that is created with `qos` a secured one: authentication, encryption and
+/// access control by the plugins of Cyclone DDS. Nothing where `settings` are not enabled. Throws
+/// InputError with file, reason and remedy where the files do not allow it (CheckMaterial), and
+/// where CYCLONEDDS_URI asks for shared memory, which would bypass the encryption.
+void SetSecurity(const SecuritySettings& settings, dds_qos_t* qos);
+
+/// Whether settings of Cyclone DDS (XML) turn shared memory on.
+bool WantsSharedMemory(const std::string& xml);
+
+}  // namespace palpate::dds
