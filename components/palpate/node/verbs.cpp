@@ -13,6 +13,7 @@
 #include "components/palpate/node/doctor/doctor_verb.hpp"
 #include "components/palpate/node/play/play_verb.hpp"
 #include "components/palpate/node/record/record_verb.hpp"
+#include "components/palpate/node/security/security_verb.hpp"
 #include "components/palpate/node/topics/node_verbs.hpp"
 #include "components/palpate/node/topics/param_verbs.hpp"
 #include "components/palpate/node/topics/topic_verbs.hpp"
@@ -31,7 +32,7 @@ int RunCommand(const std::vector<std::string>& words) {
       DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
       DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     DoctorVerb(),
       TopicVerb(),    NodeVerb(),   ParamVerb(),    RecordVerb(),    PlayVerb(),
-      RepairVerb(),   ExportVerb(), InfoVerb(),     ReferenceVerb(),
+      RepairVerb(),   ExportVerb(), InfoVerb(),     SecurityVerb(),  ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
