@@ -24,10 +24,10 @@ pkg_check_modules(LIBDEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 # Recordings of rosbag2 in its storage sqlite3.
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
-# Of PCL the libraries that are used: its own list also brings HDF5 and MPI.
+# Of PCL the one library that needs no other; components/perception compiles the rest that it uses.
+# FLANN, whose headers PCL's search trees use, refers to lz4.
 pkg_check_modules(PCL REQUIRED pcl_segmentation)
-set(PCL_LIBRARIES pcl_segmentation pcl_filters pcl_sample_consensus pcl_search pcl_kdtree
-    pcl_common)
+set(PCL_LIBRARIES pcl_common PkgConfig::LZ4)
 
 # One vendor, so that timings and rounding do not depend on what else a machine has.
 set(BLA_VENDOR OpenBLAS)

@@ -4,17 +4,45 @@
 #include "components/perception/color/large_planes.hpp"
 
 #include <pcl/point_types.h>
-#include <pcl/segmentation/sac_segmentation.h>
+#include <pcl/sample_consensus/ransac.h>
+#include <pcl/sample_consensus/sac_model_plane.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace palpate::perception {
 
 namespace {
+
+using PlainCloud = pcl::PointCloud<pcl::PointXYZ>;
+
+struct FittedPlane {
+  Eigen::Vector4f plane;  ///< n, d with n . x + d = 0; |n| = 1
+  pcl::Indices on_plane;  ///< points within the thickness
+};
+
+/// The plane with the most of the points `left`, fitted to them. nullopt: none was found.
+std::optional<FittedPlane> FitPlane(const PlainCloud::ConstPtr& cloud, const pcl::Indices& left,
+                                    double thickness_m, int iterations) {
+  // A new model begins with the same random numbers each time.
+  const pcl::SampleConsensusModelPlane<pcl::PointXYZ>::Ptr model(
+      new pcl::SampleConsensusModelPlane<pcl::PointXYZ>(cloud, left));
+  pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, thickness_m);
+  ransac.setMaxIterations(iterations);
+  if (!ransac.computeModel()) return std::nullopt;
+  FittedPlane fitted;
+  ransac.getInliers(fitted.on_plane);
+  Eigen::VectorXf drawn, refined;
+  ransac.getModelCoefficients(drawn);
+  model->optimizeModelCoefficients(fitted.on_plane, drawn, refined);
+  model->selectWithinDistance(refined, thickness_m, fitted.on_plane);
+  fitted.plane = refined;
+  return fitted;
+}
 
 float Extent_m(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen) {
   const Eigen::Matrix3Xf of_plane_m = points_m(Eigen::all, chosen);
@@ -41,37 +69,28 @@ bool IsLargeAndFlat(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen
 std::vector<Eigen::Vector4f> FindLargePlanes(const Eigen::Matrix3Xf& points_m,
                                              const ColorConfig& config,
                                              const LargePlanesTuning& tuning) {
-  using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-  const Cloud::Ptr cloud(new Cloud);
+  const PlainCloud::Ptr cloud(new PlainCloud);
   for (const auto point_m : points_m.colwise()) {
     cloud->push_back({point_m.x(), point_m.y(), point_m.z()});
   }
-  pcl::SACSegmentation<pcl::PointXYZ> ransac;  // begins with the same random numbers each time
-  ransac.setModelType(pcl::SACMODEL_PLANE);
-  ransac.setMethodType(pcl::SAC_RANSAC);
-  ransac.setMaxIterations(tuning.ransac_iterations);
-  ransac.setDistanceThreshold(config.background_thickness_m);
-  ransac.setOptimizeCoefficients(true);
-  ransac.setInputCloud(cloud);
-  const pcl::IndicesPtr left(new pcl::Indices(cloud->size()));
-  std::iota(left->begin(), left->end(), 0);
+  pcl::Indices left(cloud->size());
+  std::iota(left.begin(), left.end(), 0);
   const double fewest = std::max(3.0, tuning.least_share * static_cast<double>(cloud->size()));
   std::vector<Eigen::Vector4f> planes;
   for (int tries = 0; tries < tuning.most_tries && planes.size() < tuning.most_planes &&
-                      static_cast<double>(left->size()) >= fewest;
+                      static_cast<double>(left.size()) >= fewest;
        ++tries) {
-    pcl::PointIndices on_plane;
-    pcl::ModelCoefficients plane;
-    ransac.setIndices(left);
-    ransac.segment(on_plane, plane);
-    if (static_cast<double>(on_plane.indices.size()) < fewest) break;
+    const std::optional<FittedPlane> fitted =
+        FitPlane(cloud, left, config.background_thickness_m, tuning.ransac_iterations);
+    if (!fitted || static_cast<double>(fitted->on_plane.size()) < fewest) break;
     // A plane through several objects is none of them, but may be found before their own.
-    const Eigen::Vector4f found(plane.values.data());
-    if (IsLargeAndFlat(points_m, on_plane.indices, found, config, tuning)) planes.push_back(found);
+    if (IsLargeAndFlat(points_m, fitted->on_plane, fitted->plane, config, tuning)) {
+      planes.push_back(fitted->plane);
+    }
     pcl::Indices rest;
-    std::set_difference(left->begin(), left->end(), on_plane.indices.begin(),
-                        on_plane.indices.end(), std::back_inserter(rest));
-    *left = std::move(rest);
+    std::set_difference(left.begin(), left.end(), fitted->on_plane.begin(), fitted->on_plane.end(),
+                        std::back_inserter(rest));
+    left = std::move(rest);
   }
   return planes;
 }
