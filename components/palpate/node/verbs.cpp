@@ -17,6 +17,7 @@
 #include "components/palpate/node/topics/node_verbs.hpp"
 #include "components/palpate/node/topics/param_verbs.hpp"
 #include "components/palpate/node/topics/topic_verbs.hpp"
+#include "components/palpate/node/watch/health_verb.hpp"
 #include "components/palpate/node/watch/watch_verb.hpp"
 #include "components/palpate/recordings/export_verb.hpp"
 #include "components/palpate/recordings/repair_verb.hpp"
@@ -29,10 +30,11 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
-      DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
-      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     DoctorVerb(),
-      TopicVerb(),    NodeVerb(),   ParamVerb(),    RecordVerb(),    PlayVerb(),
-      RepairVerb(),   ExportVerb(), InfoVerb(),     SecurityVerb(),  ReferenceVerb(),
+      DemoVerb(),      SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
+      DiagnoseVerb(),  ImportVerb(), CaptureVerb(),  WatchVerb(),     HealthVerb(),
+      DoctorVerb(),    TopicVerb(),  NodeVerb(),     ParamVerb(),     RecordVerb(),
+      PlayVerb(),      RepairVerb(), ExportVerb(),   InfoVerb(),      SecurityVerb(),
+      ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);

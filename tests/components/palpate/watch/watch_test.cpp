@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -17,14 +16,12 @@
 #include "libs/dds/health.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/wait_set.hpp"
+#include "tests/components/palpate/watch/test_domain.hpp"
 
 namespace palpate::command {
 namespace {
 
 using testing::HasSubstr;
-
-/// The domain that this test program has for itself (set by CMake).
-int TestDomain() { return std::atoi(std::getenv("ROS_DOMAIN_ID")); }
 
 /// Stands in for palpate-force-estimation: reports and sends a force until it goes.
 class FakeEstimator {
