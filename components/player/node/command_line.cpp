@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "libs/app/log.hpp"
+#include "libs/app/notify.hpp"
 #include "libs/app/operator_keys.hpp"
 #include "libs/app/parameters.hpp"
 #include "libs/app/process_tuning.hpp"
@@ -89,6 +90,7 @@ int PlayExperiment(const Command& command) {
   PlayerNode node(command.config, playback, OpenExperiment(command), command.options.domain_id,
                   TableOf(command), app::Log);
   const app::StopSignal stop([&] { node.Stop(); });
+  app::NotifyReady();
   node.Run();
   app::LogInfo("{}", stop.Requested() ? "stopped by a signal" : "ended");
   return app::kExitDone;
@@ -164,6 +166,7 @@ int PlayRecording(const Command& command) {
                      TableOf(command), app::Log);
   const app::StopSignal stop([&] { node.Stop(); });
   const app::OperatorKeys keys([&](app::OperatorKey key) { AnswerKey(key, node); });
+  app::NotifyReady();
   node.Run();
   return app::kExitDone;
 }

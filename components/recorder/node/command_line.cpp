@@ -15,6 +15,7 @@
 #include "components/recorder/node/attachments.hpp"
 #include "components/recorder/node/status_json.hpp"
 #include "libs/app/log.hpp"
+#include "libs/app/notify.hpp"
 #include "libs/app/operator_keys.hpp"
 #include "libs/app/parameters.hpp"
 #include "libs/app/process_tuning.hpp"
@@ -211,6 +212,7 @@ int Record(const Command& command) {
     if (key == app::OperatorKeyOf('s')) node->RequestSnapshot();
     if (key == app::OperatorKeyOf('q')) node->Stop();
   });
+  app::NotifyReady();
   node->Run();
   return app::kExitDone;
 }
