@@ -45,6 +45,13 @@ constexpr char kLoopbackXml[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </CycloneDDS>
 )";
 
+/// Beside the programs in a build folder. Installed programs have no folder of results.
+std::filesystem::path UsualFolder(const std::filesystem::path& programs) {
+  const std::filesystem::path build = programs.parent_path();
+  std::error_code none;
+  return std::filesystem::exists(build / "CMakeCache.txt", none) ? build / "demo" : "palpate_demo";
+}
+
 std::string LastLine(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string last;
@@ -69,7 +76,7 @@ std::unique_ptr<ChildProcess> DemoPlace::Start(const std::string& program,
 DemoPlace MakeDemoPlace(const std::filesystem::path& out) {
   DemoPlace place;
   place.programs = ProgramFolder();
-  place.folder = out.empty() ? place.programs.parent_path() / "demo" : out;
+  place.folder = out.empty() ? UsualFolder(place.programs) : out;
   place.folder = std::filesystem::absolute(place.folder).lexically_normal();
   CheckOutputFolder(place.folder);
   std::error_code error;

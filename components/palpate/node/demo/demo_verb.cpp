@@ -44,7 +44,8 @@ app::Verb DemoVerb() {
             const auto options = std::make_shared<DemoOptions>();
             SystemDemoOptions& system = options->system;
             arguments.Option("--out FOLDER", &system.out,
-                             "Folder of the results; without it demo in the build folder");
+                             "Folder of the results; without it demo in the build folder, or "
+                             "palpate_demo here where palpate is installed");
             arguments.Option("--seconds", &system.seconds, 1, 86400,
                              "Duration, s; without it 30 s, or all of --data");
             DeclareRobotOption(arguments, &system.robot,
