@@ -72,7 +72,7 @@ endfunction()
 # in the tidy preset, clang-tidy.
 function(palpate_own_code target)
   cmake_parse_arguments(ARG "" "PCH" "" ${ARGN})
-  target_link_libraries(${target} PRIVATE palpate_warnings)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:palpate_warnings>)
   if(NOT ARG_PCH)
     set(ARG_PCH palpate_pch)
   endif()

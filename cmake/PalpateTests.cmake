@@ -9,7 +9,7 @@ include(GoogleTest)
 add_custom_target(tests)
 add_custom_target(nightly)
 add_dependencies(tests programs)
-add_dependencies(nightly tests)
+add_dependencies(nightly tests manuals)
 
 # add_component_test(NAME [FOLDERS folder...] [SOURCES file...] [LIBS lib...] [PRIVATE target...]
 #                    [RUNS program...] [LOOPBACK] [NO_PCH]

@@ -38,6 +38,7 @@ class RunTest(unittest.TestCase):
         shutil.copy(ROOT / ".ci/run", self.root / ".ci/run")
         self.program("tools/cmake", NOTE)
         self.program("tools/ctest", CTEST)
+        self.program("tools/cpack", NOTE)
         self.program("tools/dpkg-query", NOTE + "echo installed\n")
         for name in ("palpate", "palpate-bench"):
             self.program(f"build/release/bin/{name}", NOTE)
@@ -100,6 +101,15 @@ class RunTest(unittest.TestCase):
         self.assertEqual(self.call("./run", "bench", "--benchmark_filter=fem"), 0, self.output)
         self.assertEqual(self.built(), ["palpate-bench"])
         self.assertTrue(self.noted("palpate-bench")[0].endswith(" --benchmark_filter=fem"))
+
+    def test_package_makes_packages_of_programs_and_manuals(self):
+        self.assertEqual(self.call("./run", "package"), 0, self.output)
+        self.assertEqual(self.built(), ["programs", "manuals"])
+        self.assertEqual(self.noted("cpack"), ["cpack --config build/release/CPackConfig.cmake "
+                                               "-B build/release/packages"])
+        self.assertTrue(self.needs("dpkg-dev"))
+        self.assertFalse(self.needs("libgtest-dev"))
+        self.assertEqual(self.call("./run", "package", "palpate"), 1)
 
     def test_warnings_are_errors_in_ci_alone(self):
         self.call("./run", "build")
