@@ -74,6 +74,10 @@ def check_image(store):
     tools = run_once(store, ["sh", "-c", "id -u; command -v cc gcc g++ clang cmake ld as; true"])
     if tools.split() != ["10001"]:
         raise SystemExit(f"not one user without compilers: {tools}")
+    libraries = run_once(store, ["sh", "-c", "for p in /usr/bin/palpate*; do ldd $p; done"])
+    missing = {line.strip() for line in libraries.splitlines() if "not found" in line}
+    if missing:
+        raise SystemExit(f"programs lack libraries: {missing}")
 
 
 def container_words(name, service=None):
@@ -120,15 +124,18 @@ def run_services(store, services):
         waiting = {name for name in waiting if not is_healthy(store, name, services[name])}
     for name in services:
         print(f"{name}: {'not healthy' if name in waiting else 'healthy'}")
+    end += START_LIMIT_S
     if waiting:
         logs = "\n".join(f"{name}:\n{store.podman('logs', '--tail', '5', name, check=False)}"
                          for name in waiting)
         raise SystemExit(f"not healthy within {START_LIMIT_S} s\n{logs}")
-    snapshot = json.loads(run_once(store, ["palpate", "watch", "--once", "--json"]))
-    forces = snapshot["forces"]
-    print(f"forces: {forces['received']} messages, {forces['rate_hz']:.1f} Hz, {forces['status']}")
-    if not forces["received"]:
-        raise SystemExit("no message of /forces")
+    forces = None
+    while not (forces and forces["rate_hz"]) and time.monotonic() < end:
+        snapshot = run_once(store, ["palpate", "watch", "--once", "--json"])
+        forces = json.loads(snapshot)["forces"]
+    if not (forces and forces["rate_hz"]):
+        raise SystemExit("no messages of /forces")
+    print(f"forces: {forces['rate_hz']:.1f} Hz, {forces['status']} {forces['reason']}")
 
 
 def stop_services(store, services):
