@@ -138,7 +138,7 @@ recording::MessageFilter RecordingSource::FilterOf(
 void RecordingSource::Seek(std::int64_t time_ns) {
   recording::MessageFilter filter = FilterOf();
   filter.start_time_ns = time_ns;
-  stream_.emplace(recorded_->Messages(filter));
+  messages_ = std::make_unique<recording::ReadAhead>(recorded_->Messages(filter));
   last_latched_.clear();
 }
 
@@ -156,7 +156,7 @@ bool RecordingSource::IsRepeated(const PlayedMessage& message, LastMessages* las
 }
 
 const PlayedMessage* RecordingSource::Next() {
-  while (const Message* message = stream_->Next()) {
+  while (const Message* message = messages_->Next()) {
     current_ = Played(*message);
     if (!IsRepeated(current_, &last_latched_)) return &current_;
   }

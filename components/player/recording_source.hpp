@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "components/player/offered_qos.hpp"
+#include "libs/recording/read_ahead.hpp"
 #include "libs/recording/recorded_messages.hpp"
 #include "libs/recording/topic_choice.hpp"
 
@@ -87,7 +88,7 @@ class RecordingSource {
   std::vector<std::string> problems_;
   std::set<std::int64_t> splits_ns_;  ///< when all files but the first begin
 
-  std::optional<recording::RecordedStream> stream_;
+  std::unique_ptr<recording::ReadAhead> messages_;
   PlayedMessage current_;
   LastMessages last_latched_;
 };

@@ -14,7 +14,8 @@
 namespace palpate {
 
 /// Hands items from one thread to another, in order and never more than `capacity` at once. Of the
-/// items marked as overtakable only the newest waits.
+/// items marked as overtakable only the newest waits. Where it is full, Push() drops the oldest item
+/// and PushWhenRoom() waits.
 template <typename T>
 class BoundedQueue {
  public:
@@ -33,6 +34,18 @@ class BoundedQueue {
       waiting_.push_back({std::move(item), overtakable});
     }
     changed_.notify_one();
+  }
+
+  /// Waits while `capacity` items wait. False after Stop().
+  [[nodiscard]] bool PushWhenRoom(T item) {
+    {
+      std::unique_lock lock(mutex_);
+      has_room_.wait(lock, [this] { return stopped_ || waiting_.size() < capacity_; });
+      if (stopped_) return false;
+      waiting_.push_back({std::move(item), false});
+    }
+    changed_.notify_one();
+    return true;
   }
 
   /// The oldest item, or nullopt.
@@ -54,6 +67,7 @@ class BoundedQueue {
       stopped_ = true;
     }
     changed_.notify_all();
+    has_room_.notify_all();
   }
 
   /// Items that were overtaken, or pushed out because too many waited.
@@ -72,12 +86,14 @@ class BoundedQueue {
     if (waiting_.empty()) return std::nullopt;
     std::optional<T> item(std::move(waiting_.front().item));
     waiting_.pop_front();
+    has_room_.notify_one();
     return item;
   }
 
   const size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
+  std::condition_variable has_room_;
   std::deque<Waiting> waiting_;
   uint64_t dropped_ = 0;
   bool stopped_ = false;

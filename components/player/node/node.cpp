@@ -57,9 +57,8 @@ void PlayerNode::Run() {
   } while (playback_.loop && !loop_.stopped());
   ReportHealth();
   if (loop_.stopped()) return;
-  const bool received = images_ ? images_->WaitUntilReceived(kLastMessagesWait)
-                                : markers_.WaitUntilReceived(kLastMessagesWait);
-  if (!received) log_.Write(Severity::kWarning, "a reader has not confirmed the last frames");
+  if (!WaitUntilReceived(kLastMessagesWait))
+    log_.Write(Severity::kWarning, "a reader has not confirmed the last frames");
 }
 
 /// Readers that start together, a recorder among them, are found one after the other.
@@ -77,6 +76,7 @@ void PlayerNode::Settle() {
 }
 
 void PlayerNode::WaitForReaders() {
+  is_confirmed_ = false;
   const std::string topic = images_ ? images_->depth_topic() : markers_.ros_name();
   log_.Write(Severity::kInfo, "waiting for readers of " + topic);
   const Clock::time_point deadline = Clock::now() + FromSeconds(config_.reader_deadline_s);
@@ -113,7 +113,26 @@ void PlayerNode::Play(const Event& event) {
   const Clock::time_point due = Clock::now() + pacer_.TimeUntil(event.recording, event.t_s);
   if (event.recording == event_recording_) next_event_ns_ = StampOf(event, config_.start_time_s);
   loop_.DispatchUntil([this] { return NewEstimator(); }, due);
-  if (!loop_.stopped() && !NewEstimator()) Publish(event);
+  if (loop_.stopped() || NewEstimator()) return;
+  Publish(event);
+  if (!is_confirmed_ && event.has_frame()) ConfirmFirst(event);
+}
+
+/// The player may know a reader that does not know it yet. Time stands until the readers confirm
+/// the first frame, so that later ones do not push it out of the writer's history.
+void PlayerNode::ConfirmFirst(const Event& event) {
+  is_confirmed_ = true;
+  if (!WaitUntilReceived(kFirstMessagesWait)) {
+    log_.Write(Severity::kWarning, "a reader has not confirmed the first frame");
+  }
+  pacer_.Restart();
+  pacer_.TimeUntil(event.recording, event.t_s);
+}
+
+bool PlayerNode::WaitUntilReceived(std::chrono::nanoseconds at_most) {
+  const bool frames =
+      images_ ? images_->WaitUntilReceived(at_most) : markers_.WaitUntilReceived(at_most);
+  return joint_states_.WaitUntilReceived(at_most) && frames;
 }
 
 void PlayerNode::WaitForAnswer(const Event& event) {

@@ -52,6 +52,8 @@ class PlayerNode {
   void WaitForAnswer(const Event& event);
   bool Answered(const Event& event) const;
   void Publish(const Event& event);
+  void ConfirmFirst(const Event& event);
+  bool WaitUntilReceived(std::chrono::nanoseconds at_most);
   void TakeForces();
   void PublishClock(int64_t now_ns);
   void AdvanceClock();
@@ -77,6 +79,7 @@ class PlayerNode {
   std::optional<int64_t> next_event_ns_;  ///< /clock does not pass it; nullopt: time stands
   Pacer pacer_;
   dds::HealthCounts counts_;
+  bool is_confirmed_ = false;  ///< by the readers, the first frame since WaitForReaders()
   uint32_t known_estimators_ = 0;
   std::string answered_recording_;
   std::optional<int64_t> answered_stamp_ns_;

@@ -98,6 +98,15 @@ bool PlayedWriters::WaitUntilReceived(std::chrono::nanoseconds at_most) {
   return all;
 }
 
+bool PlayedWriters::ConfirmFirst(std::size_t topic, std::chrono::nanoseconds at_most) {
+  Channel& channel = channels_[topic];
+  const bool waits = !channel.is_confirmed && !channel.is_silent && channel.writer->matched() > 0;
+  channel.is_confirmed = true;
+  // The message is sent: a reader that does not answer in time is a slow one.
+  if (waits) static_cast<void>(channel.writer->WaitUntilReceived(at_most));
+  return waits;
+}
+
 std::uint32_t PlayedWriters::readers() const {
   std::uint32_t readers = 0;
   for (const Channel& channel : channels_) {

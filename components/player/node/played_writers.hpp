@@ -31,6 +31,9 @@ class PlayedWriters {
   /// Sends, unless the topic is silent. False where DDS does not take it.
   [[nodiscard]] bool Write(std::size_t topic, std::string_view cdr);
   [[nodiscard]] bool WaitUntilReceived(std::chrono::nanoseconds at_most);
+  /// After the first message of a topic: waits until its reliable readers have it, or so long.
+  /// False where it did not wait, because no reader confirms or the message was not the first.
+  bool ConfirmFirst(std::size_t topic, std::chrono::nanoseconds at_most);
 
   /// Of topics that are not silent.
   std::uint32_t readers() const;
@@ -56,6 +59,7 @@ class PlayedWriters {
     std::string dds_topic;
     std::unique_ptr<dds::RawWriter> writer;
     bool is_silent = false;
+    bool is_confirmed = false;  ///< its first message
   };
 
   dds::NodeLog& log_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "components/player/node/periods.hpp"
+#include "libs/app/process_tuning.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/statistics.hpp"
@@ -198,9 +199,11 @@ void RecordingNode::MoveTo(std::int64_t time_ns) {
 
 void RecordingNode::PlayOnce() {
   MoveTo(Begin_ns());
+  ChooseScheduling();
   is_playing_ = true;
   const std::uint32_t known_estimators = answers_ ? answers_->estimators_ever() : 0;
   const PlayedMessage* message = source_.Next();
+  clock_.Set(position_ns_);  // time stood while the first messages were read
   while (message != nullptr && message->time_ns <= End_ns()) {
     const Due due = WaitUntilDue(*message);
     if (due == Due::kStopped) return;
@@ -213,6 +216,7 @@ void RecordingNode::PlayOnce() {
       return PlayOnce();
     }
     message = source_.Next();
+    if (due == Due::kMoved) clock_.Set(position_ns_);
   }
   WaitForAnswer();
 }
@@ -271,9 +275,11 @@ bool RecordingNode::TakeRequest() {
         break;
       case Request::kFaster:
         if (can_change_rate) clock_.SetRate(std::min(kMostRate, clock_.rate() * kRateFactor));
+        ChooseScheduling();
         break;
       case Request::kSlower:
         if (can_change_rate) clock_.SetRate(std::max(kLeastRate, clock_.rate() / kRateFactor));
+        ChooseScheduling();
         break;
     }
   }
@@ -291,10 +297,24 @@ void RecordingNode::Send(const PlayedMessage& message) {
   }
   if (!is_timed && clock_writer_) PublishClock();
   if (!writers_.Write(message.topic, message.data)) ++dropped_;
+  if (is_timed) ConfirmFirst(message);
   if (answers_) answers_->NoteSent(message.topic, message.data, IsStep(message.topic));
   ++messages_;
   position_ns_ = message.time_ns;
   if (steps_left_ > 0 && IsStep(message.topic)) --steps_left_;
+}
+
+/// The player may know a reader that does not know it yet. Time stands until the reader confirms
+/// the first message of its topic, so that later ones do not push it out of the writer's history.
+void RecordingNode::ConfirmFirst(const PlayedMessage& message) {
+  if (first_sent_ == RealClock::time_point()) first_sent_ = RealClock::now();
+  if (RealClock::now() > first_sent_ + kDiscoveryTime) return;
+  if (writers_.ConfirmFirst(message.topic, kFirstMessagesWait)) clock_.Set(message.time_ns);
+}
+
+/// Faster than it was recorded, it may need a whole core, which is not to be taken from others.
+void RecordingNode::ChooseScheduling() {
+  clock_.rate() <= 1.0 ? app::PreferPromptWakeUps() : app::EndPromptWakeUps();
 }
 
 void RecordingNode::WaitForAnswer() {

@@ -72,6 +72,8 @@ class RecordingNode {
   bool TakeRequest();
   void MoveTo(std::int64_t time_ns);
   void Send(const PlayedMessage& message);
+  void ConfirmFirst(const PlayedMessage& message);
+  void ChooseScheduling();
   bool IsStep(std::size_t topic) const { return !step_topic_ || *step_topic_ == topic; }
   void ChooseStepTopic();
   void WaitForAnswer();
@@ -93,7 +95,8 @@ class RecordingNode {
   PlaybackClock clock_;
   std::optional<std::size_t> step_topic_;
   bool is_playing_ = false;
-  int steps_left_ = 0;  ///< messages to be sent while time stands
+  dds::WaitSet::Clock::time_point first_sent_;  ///< when playing began; epoch: not yet
+  int steps_left_ = 0;                          ///< messages to be sent while time stands
   std::int64_t position_ns_ = 0;
   dds::WaitSet::Clock::time_point next_dispatch_;
   std::uint64_t messages_ = 0;

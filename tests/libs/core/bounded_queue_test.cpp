@@ -49,5 +49,25 @@ TEST(BoundedQueue, WhatOneThreadPushesTheOtherGetsInOrder) {
   pushing.join();
 }
 
+TEST(BoundedQueue, WhereItWaitsForRoomNothingIsLost) {
+  BoundedQueue<int> queue(2);
+  std::thread pushing([&] {
+    for (int i = 0; i < 500; ++i) EXPECT_TRUE(queue.PushWhenRoom(i));
+  });
+  for (int i = 0; i < 500; ++i) ASSERT_EQ(queue.Pop(), i);
+  pushing.join();
+  EXPECT_EQ(queue.dropped(), 0u);
+}
+
+TEST(BoundedQueue, StopEndsAWaitForRoom) {
+  BoundedQueue<int> queue(1);
+  ASSERT_TRUE(queue.PushWhenRoom(1));
+  bool pushed = true;
+  std::thread pushing([&] { pushed = queue.PushWhenRoom(2); });
+  queue.Stop();
+  pushing.join();
+  EXPECT_FALSE(pushed);
+}
+
 }  // namespace
 }  // namespace palpate

@@ -4,11 +4,19 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include "libs/app/process_tuning.hpp"
+#include "libs/core/seconds.hpp"
+#include "libs/core/statistics.hpp"
 #include "tests/components/player/recording/sample_recording.hpp"
 #include "tests/libs/dds/test_participant.hpp"
 #include "tests/support/test_folder.hpp"
@@ -20,6 +28,13 @@ namespace {
 
 using dds::TestNode;
 using test_support::TestFolder;
+
+constexpr std::size_t kDepthBytes = 848 * 480 * 2;
+constexpr std::size_t kColorBytes = 848 * 480 * 3;
+/// After a frame's time: depth, colour, and four small messages.
+constexpr std::array<std::chrono::milliseconds, 6> kOffsets{
+    std::chrono::milliseconds(0),  std::chrono::milliseconds(2),  std::chrono::milliseconds(5),
+    std::chrono::milliseconds(12), std::chrono::milliseconds(19), std::chrono::milliseconds(26)};
 
 /// Depth and colour of 848 x 480 and four small messages at 30 Hz.
 void WriteCameraRecording(const std::filesystem::path& file, int frames) {
@@ -55,20 +70,59 @@ void WriteCameraRecording(const std::filesystem::path& file, int frames) {
     number(size);
     return cdr + std::string(size, 'x');
   };
-  const std::string depth_cdr = image(848 * 480 * 2);
-  const std::string color_cdr = image(848 * 480 * 3);
+  const std::string depth_cdr = image(kDepthBytes);
+  const std::string color_cdr = image(kColorBytes);
   const std::string text = CdrText("state");
   for (int i = 0; i < frames; ++i) {
     const std::int64_t time_ns = kSampleStart_ns + i * kSecond_ns / 30;
-    writer.Write(recording::Message{depth, 0, time_ns, time_ns, depth_cdr});
-    writer.Write(recording::Message{color, 0, time_ns + 2'000'000, time_ns, color_cdr});
-    for (int k = 0; k < 4; ++k) {
-      const std::int64_t then_ns = time_ns + (5 + 7 * k) * 1'000'000;
-      writer.Write(recording::Message{small, 0, then_ns, then_ns, text});
+    for (std::size_t k = 0; k < kOffsets.size(); ++k) {
+      const std::int64_t then_ns = time_ns + std::chrono::nanoseconds(kOffsets[k]).count();
+      const auto channel_id = k == 0 ? depth : k == 1 ? color : small;
+      const std::string& cdr = k == 0 ? depth_cdr : k == 1 ? color_cdr : text;
+      writer.Write(recording::Message{channel_id, 0, then_ns, then_ns, cdr});
     }
   }
   writer.Close();
 }
+
+/// The least that a player does: sleeps until a message is due, and copies it to a buffer. Runs
+/// until it goes out of scope. Its lateness is what the system adds, on this machine beside
+/// whatever else runs there.
+class BareLoop {
+ public:
+  BareLoop() : thread_([this] { Run(); }) {}
+  ~BareLoop() { Stop(); }
+
+  /// How late it woke up, s, of 99 %.
+  double Stop() {
+    stopped_ = true;
+    if (thread_.joinable()) thread_.join();
+    return Quantile(lateness_s_, 0.99);
+  }
+
+ private:
+  void Run() {
+    app::PreferPromptWakeUps();
+    const std::string depth(kDepthBytes, 'x');
+    const std::string color(kColorBytes, 'x');
+    std::string sent;
+    auto frame = std::chrono::steady_clock::now();
+    while (!stopped_) {
+      for (std::size_t k = 0; k < kOffsets.size(); ++k) {
+        const auto due = frame + kOffsets[k];
+        std::this_thread::sleep_until(due);
+        lateness_s_.push_back(SecondsSince(due));
+        if (k == 0) sent = depth;
+        if (k == 1) sent = color;
+      }
+      frame += std::chrono::nanoseconds(kSecond_ns / 30);
+    }
+  }
+
+  std::atomic<bool> stopped_ = false;
+  std::vector<double> lateness_s_;
+  std::thread thread_;
+};
 
 /// Settings for one host, as its user has them.
 class PlaybackLoad : public testing::Test {
@@ -78,8 +132,7 @@ class PlaybackLoad : public testing::Test {
   }
 };
 
-/// The lateness in ms depends on the machine: it is printed, and the README states it.
-TEST_F(PlaybackLoad, EveryFrameComesAndNinetyNineOfAHundredBeforeTheNextFrameIsDue) {
+TEST_F(PlaybackLoad, EveryFrameComesAndNinetyNineOfAHundredWithinTwoMillisecondsOfABareLoop) {
   constexpr int kFrames = 60 * 30;
   const TestFolder folder;
   WriteCameraRecording(folder / "run.mcap", kFrames);
@@ -97,6 +150,7 @@ TEST_F(PlaybackLoad, EveryFrameComesAndNinetyNineOfAHundredBeforeTheNextFrameIsD
   });
   system_test::Process player("palpate-player", {(folder / "run.mcap").string(), "--json"},
                               folder / "log.txt");
+  BareLoop bare;
   std::optional<int> code;
   listener.loop.DispatchUntil([&] { return !!(code = player.Wait(std::chrono::seconds(0))); },
                               dds::WaitSet::Clock::now() + std::chrono::seconds(100));
@@ -106,10 +160,11 @@ TEST_F(PlaybackLoad, EveryFrameComesAndNinetyNineOfAHundredBeforeTheNextFrameIsD
       output.rfind("{\"position_s\""), output.rfind('}') + 1 - output.rfind("{\"position_s\"")));
   EXPECT_TRUE(last.at("ended"));
   const double p99_s = last.at("lateness_p99_s").get<double>();
-  fmt::print("lateness: median {:.2f} ms, 99 % {:.2f} ms\n",
-             1e3 * last.at("lateness_p50_s").get<double>(), 1e3 * p99_s);
+  const double bare_p99_s = bare.Stop();
+  fmt::print("lateness: median {:.2f} ms, 99 % {:.2f} ms; 99 % of a bare loop {:.2f} ms\n",
+             1e3 * last.at("lateness_p50_s").get<double>(), 1e3 * p99_s, 1e3 * bare_p99_s);
   EXPECT_EQ(last.at("messages"), 6 * kFrames);
-  EXPECT_LT(p99_s, 1.0 / 30);
+  EXPECT_LT(p99_s, 2e-3 + bare_p99_s);
   EXPECT_EQ(depth_count, kFrames);
   EXPECT_EQ(color_count, kFrames);
 }
