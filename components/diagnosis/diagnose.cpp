@@ -4,6 +4,7 @@
 #include "components/diagnosis/diagnose.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,6 +23,8 @@
 #include "components/diagnosis/prepare/pose_registration.hpp"
 #include "components/diagnosis/prepare/surface_observation.hpp"
 #include "components/diagnosis/vocabulary/verdict_words.hpp"
+#include "libs/core/seconds.hpp"
+#include "libs/core/text.hpp"
 
 namespace palpate::diagnosis {
 
@@ -110,6 +113,8 @@ class DiagnosisRun {
   bool NamedTheMesh() const;
   Diagnosis OnTheFinerMesh() const;
   void PlanNext(Diagnosis* diagnosis) const;
+  /// Reports steps; of the null model's, how long it may take.
+  void ReportSelection(int done, int of, const std::string& what) const;
 
   const robot::RobotDescription& robot_;
   const experiment::Experiment& as_recorded_;
@@ -125,6 +130,7 @@ class DiagnosisRun {
   std::optional<HypothesisSet> hypotheses_;
   std::optional<Fitter> fitter_;
   Fit as_built_;
+  double linearised_s_ = 0.0;  ///< time that simulating and linearising the nominal robot took
   Selection selection_;
 };
 
@@ -164,6 +170,7 @@ Status DiagnosisRun::RegisterAndSwap() {
 Status DiagnosisRun::BuildHypotheses() {
   const int threads = settings_.threads;
   report_(0, steps(), "simulating the nominal robot");
+  const auto begin = std::chrono::steady_clock::now();
   const Simulation simulation =
       Simulator(observed_, threads).Run(NominalHypothesis(body_, observed_));
   const CatalogueInputs inputs = {
@@ -176,6 +183,7 @@ Status DiagnosisRun::BuildHypotheses() {
   hypotheses_.emplace(MakeFaultModels(inputs, settings_.excluded), FaultTolerances(experiment_));
   fitter_.emplace(observed_, body_, *hypotheses_, settings_.noise, threads, limit_);
   as_built_ = fitter_->AsBuilt(&simulation);
+  linearised_s_ = SecondsSince(begin);
   return CheckAgainstNominal(observed_, as_built_.simulation);
 }
 
@@ -186,10 +194,21 @@ void DiagnosisRun::Select() {
       matcher_->Match(fitter_->HypothesisAt(fit), fitter_->Shapes(fit), &observed_);
     };
   }
-  selection_ =
-      SelectFaults(observed_, *fitter_, as_built_, settings_.most_causes, report_, rematch,
-                   IsAmong(*hypotheses_, nearest_->exchanged) ? nearest_->exchanged : std::nullopt);
+  selection_ = SelectFaults(
+      observed_, *fitter_, as_built_, settings_.most_causes,
+      [this](int done, int of, const std::string& what) { ReportSelection(done, of, what); },
+      rematch, IsAmong(*hypotheses_, nearest_->exchanged) ? nearest_->exchanged : std::nullopt);
   if (matcher_) as_built_ = fitter_->Resimulated(std::move(as_built_));
+}
+
+/// Against a nominal robot that was not fitted to its end anything would be evidence: the time
+/// limit does not shorten that fit, whose every step linearises once.
+void DiagnosisRun::ReportSelection(int done, int of, const std::string& what) const {
+  if (what != kFittingTheNullModel) return report_(done, of, what);
+  const double most_s = FitterTuning().most_continuations * linearised_s_;
+  report_(done, of,
+          what + ", which may take " + FormatNumber(std::ceil(most_s)) + " s for these " +
+              std::to_string(observed_.samples.size()) + " samples; no time limit shortens it");
 }
 
 Diagnosis DiagnosisRun::Explain() {

@@ -207,7 +207,11 @@ std::string StepLine(int done, int of, const std::string& what, double elapsed_s
                      double longest_s) {
   std::string line =
       fmt::format("step {} of at most {}: {} ({:.0f} s so far", done + 1, of, what, elapsed_s);
-  if (longest_s > 0.0) line += fmt::format("; the search ends after {:.0f} s", longest_s);
+  if (longest_s > 0.0 && elapsed_s < longest_s) {
+    line += fmt::format("; the search ends after {:.0f} s", longest_s);
+  } else if (longest_s > 0.0) {
+    line += fmt::format("; the {:.0f} s are over, only what a verdict needs is done", longest_s);
+  }
   return line + ")";
 }
 
@@ -281,8 +285,10 @@ app::Verb DiagnoseVerb() {
                            "in OUT/plan_others");
             arguments.Option("--samples", &options->most_samples, 10, 2000,
                              "Maximum number of time samples used in the fit");
-            arguments.Option("--minutes", &options->most_minutes, 0, 100000,
-                             "Time limit of the search, minutes; 0: unlimited");
+            arguments.Option(
+                "--minutes", &options->most_minutes, 0, 100000,
+                "Time limit of the search, minutes; 0: unlimited. The null model is fitted to "
+                "its end all the same; fewer --samples shorten it");
             arguments.Option("--threads", &options->threads, 1, 64,
                              "Number of recordings processed in parallel");
             return [options] { return Diagnose(*options); };

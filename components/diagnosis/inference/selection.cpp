@@ -58,7 +58,7 @@ Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
   };
   const int steps = most + 3;
   Selection selection;
-  report(1, steps, "fitting the null model");
+  report(1, steps, kFittingTheNullModel);
   selection.null_model = likely ? as_built : rematched(fitter.Complete(as_built));
   selection.best = selection.null_model;
   for (int number = 0; number < most; ++number) {

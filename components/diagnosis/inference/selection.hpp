@@ -28,6 +28,9 @@ struct Selection {
                                           ///< Candidate::canonical_correlation, in [0, 1]
 };
 
+/// The step of SelectFaults that no time limit shortens, as it is reported.
+inline constexpr char kFittingTheNullModel[] = "fitting the null model";
+
 /// "3 of 12: screening"; parts are equally long as far as that is known.
 using ReportStep = std::function<void(int done, int of, const std::string& what)>;
 

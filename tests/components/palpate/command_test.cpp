@@ -174,6 +174,9 @@ TEST(StepLine, CountsFromOneAndClaimsNoTimeToGo) {
   EXPECT_EQ(StepLine(0, 7, "simulating", 3.4, 600.0),
             "step 1 of at most 7: simulating (3 s so far; the search ends after 600 s)");
   EXPECT_EQ(StepLine(1, 7, "fitting", 12.0, 0.0), "step 2 of at most 7: fitting (12 s so far)");
+  EXPECT_EQ(StepLine(1, 7, "fitting", 60.4, 60.0),
+            "step 2 of at most 7: fitting (60 s so far; the 60 s are over, only what a verdict "
+            "needs is done)");
 }
 
 TEST(Command, SaysThatAMeshIsTooLargeForItsUnit) {
