@@ -22,6 +22,15 @@ std::string MediaType(const std::string& extension) {
   return found == kTypes.end() ? "application/octet-stream" : found->second;
 }
 
+/// Replaces a path in the text of its file by its last part.
+void NameAsNeighbour(const ConfigNode& path, std::string* text) {
+  std::size_t line = 0;
+  for (int i = 1; i < path.where.line; ++i) line = text->find('\n', line) + 1;
+  const std::size_t at = text->find(path.text, line);
+  if (at == std::string::npos) return;
+  text->replace(at, path.text.size(), std::filesystem::path(path.text).filename().string());
+}
+
 }  // namespace
 
 recording::Attachment AttachmentOf(const std::string& name, std::string text) {
@@ -42,9 +51,17 @@ std::vector<recording::Attachment> AttachRobot(const std::filesystem::path& robo
   const ConfigNode robot = app::LoadYaml(robot_file);
   const ConfigNode* mesh = robot.Find("mesh");
   const ConfigNode* mesh_file = mesh == nullptr ? nullptr : mesh->Find("file");
-  if (mesh_file != nullptr) {
-    attachments.push_back(AttachmentOf(robot_file.parent_path() / mesh_file->text));
+  if (mesh_file == nullptr) return attachments;
+  const std::string given = mesh_file->text;
+  const std::filesystem::path mesh_path = robot_file.parent_path() / given;
+  const std::filesystem::path below = std::filesystem::path(given).lexically_normal();
+  if (below.is_relative() && *below.begin() != "..") {
+    attachments.push_back(AttachmentOf(below.generic_string(), ReadFile(mesh_path)));
+    return attachments;
   }
+  // Beside the attached robot file no other folder is known: there it names its neighbour.
+  attachments.push_back(AttachmentOf(mesh_path));
+  NameAsNeighbour(*mesh_file, &attachments.front().data);
   return attachments;
 }
 
