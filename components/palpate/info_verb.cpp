@@ -13,7 +13,7 @@
 
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
-#include "components/palpate/recordings/describe_mcap.hpp"
+#include "components/palpate/recordings/describe_recording.hpp"
 #include "components/palpate/robot_scene.hpp"
 #include "components/view/scene.hpp"
 #include "libs/app/run_main.hpp"
@@ -171,7 +171,7 @@ Findings Describe(const InfoOptions& options) {
                                      : "a recording"));
   }
   if (!files.empty()) {
-    McapDescription described = DescribeMcap(files);
+    RecordingDescription described = DescribeRecording(files);
     return {std::move(described.json), std::move(described.text)};
   }
   if (is_folder) return DescribeExperiment(target);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "components/palpate/recordings/phase_plan.hpp"
 #include "libs/app/key_reference.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/core/error.hpp"
@@ -32,12 +33,13 @@ struct FileKind {
   const KeyTable& (*keys)();
 };
 
-constexpr std::array<FileKind, 6> kFileKinds{{{"robot", robot::RobotFileKeys},
+constexpr std::array<FileKind, 7> kFileKinds{{{"robot", robot::RobotFileKeys},
                                               {"experiment", experiment::ExperimentKeys},
                                               {"recording", experiment::RecordingKeys},
                                               {"camera", rgbd::CameraFileKeys},
                                               {"calibration", robot::CalibrationFileKeys},
-                                              {"scenario", scenario::ScenarioKeys}}};
+                                              {"scenario", scenario::ScenarioKeys},
+                                              {"phases", PhaseFileKeys}}};
 
 std::vector<std::string> KindNames() {
   std::vector<std::string> names;
@@ -77,7 +79,7 @@ app::Verb ReferenceVerb() {
             const auto options = std::make_shared<Options>();
             arguments.Positionals("KIND", &options->kinds,
                                   "Kinds of files: robot, experiment, recording, camera, "
-                                  "calibration, scenario",
+                                  "calibration, scenario, phases",
                                   app::Need::kRequired);
             arguments.Suggest("KIND", KindNames());
             arguments.Choice("--format", &options->format, {"markdown", "json-schema"},

@@ -45,9 +45,10 @@ struct ShapeConfig {
       "depth");
     v("matching_rounds", matching_rounds, {.min = 1.0, .max = 20.0},
       "Rounds of matching and fitting per frame");
-    v("untouched_frames", untouched_frames, {.min = 1.0, .max = 10000.0},
+    v("untouched_frames", untouched_frames, {.min = 0.0, .max = 10000.0},
       "Contact-free frames at the start, from which the depth bias is estimated; none where the "
-      "calibration gives it");
+      "calibration gives it. 0: it is estimated together with the forces of each frame, with wider "
+      "intervals");
     v("pose_prior_m", pose_prior_m, {.min = 0.0, .min_open = true},
       "Prior standard deviation of the camera position");
     v("pose_prior_rad", pose_prior_rad, {.min = 0.0, .min_open = true},

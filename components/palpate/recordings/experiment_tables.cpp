@@ -79,91 +79,6 @@ std::string CheckJoint(const CollectedJoint& joint) {
   return {};
 }
 
-/// Rows of several publishers at one time are one.
-using RowTime = std::pair<int, std::int64_t>;  // segment, t_ns
-using JointRows = std::map<RowTime, std::map<std::string, CollectedJoint>>;
-
-JointRows RowsOf(const CollectedTopics& topics, const std::map<std::string, std::string>& cables,
-                 const TopicRoles& roles) {
-  JointRows rows;
-  for (const CollectedJoints& set : topics.joints) {
-    for (CollectedJoint joint : set.joints) {
-      const auto cable = cables.find(joint.name);
-      if (!cables.empty() && cable == cables.end()) continue;
-      if (std::string fault = CheckJoint(joint); !fault.empty()) {
-        const std::string& topic = roles.names.at(kJointStatesTopic);
-        throw InputError(topic + ": joint '" + joint.name + "', " + fault +
-                         "; where the joints are no cables, leave the topic out with --remap " +
-                         topic +
-                         ":=/unused, or name those that are under `cables` in the file of "
-                         "phases");
-      }
-      if (cable != cables.end()) joint.name = cable->second;
-      rows[{set.time.segment, set.time.t_ns}].emplace(joint.name, joint);
-    }
-    rows[{set.time.segment, set.time.t_ns}];
-  }
-  return rows;
-}
-
-/// All rows, one column for each input that a message has.
-experiment::Actuation TableOf(const JointRows& rows) {
-  experiment::Actuation table;
-  std::vector<std::string> cables;
-  for (const auto& [time, joints] : rows) {
-    for (const auto& [name, joint] : joints) {
-      if (!IndexOf(name, cables)) cables.push_back(name);
-    }
-    table.t_s.push_back(TableTime(time.second));
-  }
-  const auto add = [&](const std::string& cable, CableQuantity quantity,
-                       std::optional<double> CollectedJoint::*input) {
-    experiment::CableColumn column{
-        .cable = cable, .quantity = quantity, .samples = {}, .where = {}};
-    bool any = false;
-    for (const auto& [time, joints] : rows) {
-      const auto joint = joints.find(cable);
-      column.samples.push_back(joint == joints.end() ? std::nullopt : joint->second.*input);
-      any = any || column.samples.back().has_value();
-    }
-    if (any) table.columns.push_back(std::move(column));
-  };
-  for (const std::string& cable : cables) {
-    add(cable, CableQuantity::kDisplacement, &CollectedJoint::position_m);
-    add(cable, CableQuantity::kTension, &CollectedJoint::effort_N);
-  }
-  return table;
-}
-
-/// The rows of a stretch; where it has none, what held when it began.
-experiment::Actuation RowsWithin(const experiment::Actuation& all, const JointRows& rows,
-                                 const Phase& phase) {
-  experiment::Actuation part;
-  part.columns = all.columns;
-  for (experiment::CableColumn& column : part.columns) column.samples.clear();
-  std::size_t row = 0;
-  for (const auto& [time, joints] : rows) {
-    if (phase.Contains(time.second, time.first)) {
-      part.t_s.push_back(all.t_s[row]);
-      for (std::size_t i = 0; i < all.columns.size(); ++i) {
-        part.columns[i].samples.push_back(all.columns[i].samples[row]);
-      }
-    }
-    ++row;
-  }
-  const double begin_s = TableTime(phase.begin_ns);
-  const bool empty = part.t_s.empty();
-  if (empty) part.t_s.push_back(begin_s);
-  for (std::size_t i = 0; i < all.columns.size(); ++i) {
-    auto& samples = part.columns[i].samples;
-    if (empty) samples.push_back(all.ValueAt(all.columns[i], begin_s));
-    const bool any = std::any_of(samples.begin(), samples.end(),
-                                 [](const auto& sample) { return sample.has_value(); });
-    if (!any) samples.front() = all.ValueAt(all.columns[i], part.t_s.front());
-  }
-  return part;
-}
-
 /// Where the wrenches of a frame act, and how they are turned; nullopt: unknown.
 std::optional<Eigen::Isometry3d> PlaceOfLoad(const CollectedTopics& topics,
                                              const CollectedWrench& wrench, const PhaseFile& file) {
@@ -216,15 +131,93 @@ void AddMarkers(const CollectedTopics& topics, const Phase& phase, const MarkerF
   recording->markers = std::move(tracks);
 }
 
-void AddActuation(const CollectedTopics& topics, const Phase& phase,
-                  const std::map<std::string, std::string>& cables, const TopicRoles& roles,
-                  experiment::Recording* recording) {
-  JointRows rows = RowsOf(topics, cables, roles);
-  if (phase.segment != Phase::kAnySegment) {
-    std::erase_if(rows, [&](const auto& row) { return row.first.first != phase.segment; });
+ActuationRows::ActuationRows(const CollectedTopics& topics,
+                             const std::map<std::string, std::string>& cables,
+                             const TopicRoles& roles) {
+  for (const CollectedJoints& set : topics.joints) {
+    auto& row = rows_[{set.time.segment, set.time.t_ns}];
+    for (CollectedJoint joint : set.joints) {
+      const auto cable = cables.find(joint.name);
+      if (!cables.empty() && cable == cables.end()) continue;
+      if (std::string fault = CheckJoint(joint); !fault.empty()) {
+        const std::string& topic = roles.names.at(kJointStatesTopic);
+        throw InputError(topic + ": joint '" + joint.name + "', " + fault +
+                         "; where the joints are no cables, leave the topic out with --remap " +
+                         topic +
+                         ":=/unused, or name those that are under `cables` in the file of "
+                         "phases");
+      }
+      if (cable != cables.end()) joint.name = cable->second;
+      row.emplace(joint.name, joint);
+    }
   }
-  const experiment::Actuation all = TableOf(rows);
-  if (!all.columns.empty()) recording->actuation = RowsWithin(all, rows, phase);
+}
+
+/// All rows of a segment, one column for each input that a message has.
+ActuationRows::Part ActuationRows::PartOf(const Rows& rows, int segment) {
+  Part part;
+  std::vector<const std::map<std::string, CollectedJoint>*> joints_of;
+  std::vector<std::string> cables;
+  for (const auto& [time, joints] : rows) {
+    if (segment != Phase::kAnySegment && segment != time.first) continue;
+    for (const auto& [name, joint] : joints) {
+      if (!IndexOf(name, cables)) cables.push_back(name);
+    }
+    joints_of.push_back(&joints);
+    part.times.push_back(time);
+    part.table.t_s.push_back(TableTime(time.second));
+  }
+  const auto add = [&](const std::string& cable, CableQuantity quantity,
+                       std::optional<double> CollectedJoint::*input) {
+    experiment::CableColumn column{
+        .cable = cable, .quantity = quantity, .samples = {}, .where = {}};
+    bool any = false;
+    for (const auto* joints : joints_of) {
+      const auto joint = joints->find(cable);
+      column.samples.push_back(joint == joints->end() ? std::nullopt : joint->second.*input);
+      any = any || column.samples.back().has_value();
+    }
+    if (any) part.table.columns.push_back(std::move(column));
+  };
+  for (const std::string& cable : cables) {
+    add(cable, CableQuantity::kDisplacement, &CollectedJoint::position_m);
+    add(cable, CableQuantity::kTension, &CollectedJoint::effort_N);
+  }
+  return part;
+}
+
+/// The rows of a stretch; where it has none, what held when it began.
+experiment::Actuation ActuationRows::RowsWithin(const Part& all, const Phase& phase) {
+  experiment::Actuation part;
+  part.columns = all.table.columns;
+  for (experiment::CableColumn& column : part.columns) column.samples.clear();
+  for (std::size_t row = 0; row < all.times.size(); ++row) {
+    if (!phase.Contains(all.times[row].second, all.times[row].first)) continue;
+    part.t_s.push_back(all.table.t_s[row]);
+    for (std::size_t i = 0; i < part.columns.size(); ++i) {
+      part.columns[i].samples.push_back(all.table.columns[i].samples[row]);
+    }
+  }
+  const double begin_s = TableTime(phase.begin_ns);
+  const bool empty = part.t_s.empty();
+  if (empty) part.t_s.push_back(begin_s);
+  for (std::size_t i = 0; i < part.columns.size(); ++i) {
+    const experiment::CableColumn& column = all.table.columns[i];
+    auto& samples = part.columns[i].samples;
+    if (empty) samples.push_back(all.table.ValueAt(column, begin_s));
+    const bool any = std::any_of(samples.begin(), samples.end(),
+                                 [](const auto& sample) { return sample.has_value(); });
+    if (!any) samples.front() = all.table.ValueAt(column, part.t_s.front());
+  }
+  return part;
+}
+
+void ActuationRows::AddTo(const Phase& phase, experiment::Recording* recording) {
+  auto part = parts_.find(phase.segment);
+  if (part == parts_.end())
+    part = parts_.emplace(phase.segment, PartOf(rows_, phase.segment)).first;
+  if (part->second.table.columns.empty()) return;
+  recording->actuation = RowsWithin(part->second, phase);
 }
 
 void AddLoads(const CollectedTopics& topics, const Phase& phase, const PhaseFile& file,

@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/palpate/recordings/collected_topics.hpp"
@@ -23,13 +25,35 @@ struct MarkerFrames {
 /// not hold, with the topic and the remedy.
 void AddMarkers(const CollectedTopics& topics, const Phase& phase, const MarkerFrames& frames,
                 experiment::Recording* recording, std::vector<std::string>* notes);
-/// `cables`: joint -> cable; empty: joints have the names of cables.
-void AddActuation(const CollectedTopics& topics, const Phase& phase,
-                  const std::map<std::string, std::string>& cables, const TopicRoles& roles,
-                  experiment::Recording* recording);
 void AddLoads(const CollectedTopics& topics, const Phase& phase, const PhaseFile& file,
               const TopicRoles& roles, experiment::Recording* recording,
               std::vector<std::string>* notes);
+
+/// The cable inputs of all phases, put into rows once.
+class ActuationRows {
+ public:
+  /// `cables`: joint -> cable; empty: joints have the names of cables. Throws InputError as
+  /// AddMarkers.
+  ActuationRows(const CollectedTopics& topics, const std::map<std::string, std::string>& cables,
+                const TopicRoles& roles);
+
+  void AddTo(const Phase& phase, experiment::Recording* recording);
+
+ private:
+  using Time = std::pair<int, std::int64_t>;  ///< segment, t_ns
+  /// Rows of several publishers at one time are one.
+  using Rows = std::map<Time, std::map<std::string, CollectedJoint>>;
+  struct Part {
+    std::vector<Time> times;
+    experiment::Actuation table;
+  };
+
+  static Part PartOf(const Rows& rows, int segment);
+  static experiment::Actuation RowsWithin(const Part& all, const Phase& phase);
+
+  Rows rows_;
+  std::map<int, Part> parts_;  ///< by segment, made where it is first needed
+};
 
 /// The noise that the messages state; nullopt: none, or not one for all.
 std::optional<Eigen::Vector3d> MarkerSigma(const std::vector<CollectedMarkers>& frames);

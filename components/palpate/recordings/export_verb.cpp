@@ -8,9 +8,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "components/palpate/check_output.hpp"
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
 #include "components/palpate/recordings/export_messages.hpp"
 #include "components/palpate/recordings/make_experiment.hpp"
@@ -64,11 +66,28 @@ std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& target) 
                    "is neither an MCAP file, a .db3 file of rosbag2, nor a folder of them");
 }
 
+/// An experiment, or no folder at all.
+std::vector<std::string> MakeWhole(const ExportCommand& command) {
+  const std::filesystem::path out = std::filesystem::absolute(command.experiment);
+  const EndOnSignal end_on_signal("palpate export", out.string() + " is removed");
+  RemoveOnSignal(out);
+  try {
+    std::vector<std::string> notes =
+        MakeExperiment(command.file, command.remap, out, app::LoadYaml);
+    RemoveOnSignal({});
+    return notes;
+  } catch (...) {
+    RemoveOnSignal({});
+    std::error_code ignored;
+    std::filesystem::remove_all(out, ignored);
+    throw;
+  }
+}
+
 int ExportExperiment(const ExportCommand& command) {
   CheckNewFolder(command.experiment);
   FilesOf(command.file);
-  const std::vector<std::string> notes =
-      MakeExperiment(command.file, command.remap, command.experiment, app::LoadYaml);
+  const std::vector<std::string> notes = MakeWhole(command);
   if (command.json) {
     const nlohmann::ordered_json told = {{"experiment", command.experiment.string()},
                                          {"notes", notes}};
@@ -91,6 +110,8 @@ int Export(ExportCommand command) {
   command.options.clouds = command.clouds == "pcd" ? CloudFormat::kPcd : CloudFormat::kPly;
   const recording::RecordedMessages reader(FilesOf(command.file));
   std::filesystem::create_directories(out);
+  const EndOnSignal end_on_signal("palpate export",
+                                  "the files in " + out.string() + " are incomplete");
   Print(ExportMessages(reader, command.options), command.json);
   return app::kExitDone;
 }

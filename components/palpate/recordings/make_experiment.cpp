@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -108,6 +109,7 @@ class ExperimentMaker {
       notes_.push_back("t_s counts from " + FormatNumber(1e-9 * static_cast<double>(origin_ns)) +
                        " s since the epoch");
     }
+    actuation_.emplace(topics_, file_.cables, roles_);
     for (Phase& phase : phases) Add(std::move(phase));
     if (experiment_.recordings.empty()) Refuse("no phase holds images or markers");
     WriteAttachments();
@@ -199,7 +201,7 @@ class ExperimentMaker {
   void Add(Phase phase) {
     experiment::Recording& recording = phase.recording;
     AddMarkers(topics_, phase, {file_.robot_frame, camera_.frame_ids}, &recording, &notes_);
-    AddActuation(topics_, phase, file_.cables, roles_, &recording);
+    actuation_->AddTo(phase, &recording);
     AddLoads(topics_, phase, file_, roles_, &recording, &notes_);
     const auto inside = [&](const CollectedImage& image) {
       return phase.Contains(image.time.t_ns, image.time.segment);
@@ -251,6 +253,7 @@ class ExperimentMaker {
   CollectedTopics topics_;
   PhaseFile file_;
   RecordedCamera camera_;
+  std::optional<ActuationRows> actuation_;
   experiment::Experiment experiment_;
   std::vector<Stretch> stretches_;  ///< of the experiment's recordings
   std::vector<bool> with_images_;

@@ -3,8 +3,11 @@
 
 #include "components/palpate/node/demo/demo_verb.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -31,9 +34,18 @@ int Demo(const DemoOptions& options) {
   }
   std::optional<EndOnSignal> end_on_signal;
   end_on_signal.emplace("palpate demo", "nothing was written");
-  const DataFolder data(system.data, system.remap);
-  end_on_signal.reset();
   SystemDemoOptions of_folder = system;
+  std::vector<std::string> of_messages;
+  if (!system.data.empty()) {
+    // The player publishes an experiment under the usual names: only a namespace is left to choose.
+    const auto of_processes =
+        std::stable_partition(of_folder.remap.begin(), of_folder.remap.end(),
+                              [](const std::string& rule) { return rule.starts_with("__"); });
+    of_messages.assign(of_processes, of_folder.remap.end());
+    of_folder.remap.erase(of_processes, of_folder.remap.end());
+  }
+  const DataFolder data(system.data, of_messages);
+  end_on_signal.reset();
   of_folder.data = data.path();
   return data.Run([&](const std::filesystem::path&) { return SystemDemo(of_folder); });
 }
@@ -58,7 +70,9 @@ app::Verb DemoVerb() {
                 "Experiment folder, or MCAP or .db3 file or folder of them, with depth "
                 "images to play instead of the virtual robot; with --recording beam the folder "
                 "that holds silicone_beam");
-            DeclareRemap(arguments, &system.remap);
+            arguments.Repeated("--remap FROM:=TO", &system.remap,
+                               "Another name for a topic of the processes, or __ns:=/left for all; "
+                               "with --data FROM is a topic of the recorded messages");
             arguments.Option("--calibration", &system.calibration,
                              "Calibration file of palpate calibrate; without it the robot file's "
                              "moduli hold");

@@ -18,9 +18,9 @@ constexpr auto kLivePollPeriod = std::chrono::milliseconds(50);
 
 }  // namespace
 
-LiveListener::LiveListener(int domain_id, Truth truth)
+LiveListener::LiveListener(int domain_id, Truth truth, const std::vector<std::string>& remap)
     : with_truth_(truth == Truth::kKnown),
-      participant_(JoinDomain("palpate_demo", domain_id)),
+      participant_(JoinDomain("palpate_demo", domain_id, remap)),
       loop_(participant_),
       forces_(participant_.CreateReader(dds::kForcesTopic)),
       mesh_states_(participant_.CreateReader(dds::kMeshStateTopic)),

@@ -23,7 +23,7 @@ class LiveListener {
   enum class Truth { kKnown, kNone };
 
   /// Throws RunError where DDS refuses.
-  LiveListener(int domain_id, Truth truth);
+  LiveListener(int domain_id, Truth truth, const std::vector<std::string>& remap = {});
 
   /// Takes messages until `done()` holds, which is asked at least every 50 ms; false where `limit`
   /// passes before. `take` gets each compared frame.

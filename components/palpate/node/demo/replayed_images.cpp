@@ -3,6 +3,7 @@
 
 #include "components/palpate/node/demo/replayed_images.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include "components/palpate/estimate/estimate_plan.hpp"
@@ -27,21 +28,25 @@ Eigen::Isometry3d CameraPose(const experiment::Experiment& experiment,
 
 }  // namespace
 
-ReplayedImages ExamineImages(const std::filesystem::path& data) {
+ReplayedImages ExamineImages(const std::filesystem::path& data,
+                             const std::optional<Eigen::Isometry3d>& calibrated) {
   const auto experiment = experiment::ReadExperiment(data, app::LoadYaml);
   ReplayedImages images;
   for (const experiment::Recording& recording : experiment.recordings) {
     if (!HasImages(recording)) continue;
-    const Eigen::Isometry3d T_robot_camera = CameraPose(experiment, recording);
+    const Eigen::Isometry3d T_robot_camera =
+        calibrated ? *calibrated : CameraPose(experiment, recording);
     if (images.recordings == 0) images.T_robot_camera = T_robot_camera;
     if (!T_robot_camera.isApprox(images.T_robot_camera, kSamePose)) {
       throw InputError(recording.folder.string() +
                        ": its camera pose differs from that of the recordings before; give one "
                        "recording as --data");
     }
-    ++images.recordings;
-    images.frames += static_cast<int>(
+    const auto frames = static_cast<int>(
         recording.depth_images.empty() ? recording.clouds.size() : recording.depth_images.size());
+    const bool first = images.recordings++ == 0;
+    images.fewest_frames = first ? frames : std::min(frames, images.fewest_frames);
+    images.frames += frames;
   }
   if (images.recordings == 0) {
     throw InputError(data.string() + ": no recording has depth images or clouds");

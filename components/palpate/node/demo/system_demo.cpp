@@ -7,9 +7,12 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "components/capture/network/socket_report.hpp"
+#include "components/force_estimation/shape/shape_config.hpp"
 #include "components/palpate/compare/live_line.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/node/demo/demo_place.hpp"
@@ -24,6 +27,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario.hpp"
 
 namespace palpate::command {
@@ -58,8 +62,8 @@ std::filesystem::path ScenarioFile(const SystemDemoOptions& options) {
 // The running system and its listener.
 class DemoRun {
  public:
-  DemoRun(const DemoPlace& place, LiveListener::Truth truth)
-      : listener_(place.domain_id, truth), processes_(place) {}
+  DemoRun(const DemoPlace& place, LiveListener::Truth truth, const std::vector<std::string>& remap)
+      : listener_(place.domain_id, truth, remap), processes_(place, remap) {}
 
   SystemProcesses& processes() { return processes_; }
   const LiveComparison& comparison() const { return listener_.comparison(); }
@@ -139,13 +143,32 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
   run->HideTable();
 }
 
+/// Each recording is a sequence, whose first frames are used for the depth bias and give no forces.
+/// Of short recordings none would be left.
+std::vector<std::string> BiasSettings(const ReplayedImages& images,
+                                      const robot::CalibrationFile& calibration) {
+  const int bias_frames = force_estimation::ShapeConfig().untouched_frames;
+  if (calibration.depth_bias || images.fewest_frames > bias_frames) return {};
+  fmt::print(
+      "  recordings of {} frames and more, none with a calibrated depth bias: it is estimated with "
+      "the forces of each frame. Intervals are wider (palpate calibrate, --calibration)\n",
+      images.fewest_frames);
+  return {"shape.untouched_frames=0"};
+}
+
 void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::path& robot,
                     DemoRun* run) {
-  const ReplayedImages images = ExamineImages(options.data);
+  const robot::CalibrationFile calibration =
+      options.calibration.empty() ? robot::CalibrationFile()
+                                  : robot::ReadCalibrationFile(options.calibration, app::LoadYaml);
+  std::optional<Eigen::Isometry3d> calibrated;
+  if (calibration.pose) calibrated = calibration.pose->T_robot_camera;
+  const ReplayedImages images = ExamineImages(options.data, calibrated);
   {
     const DemoStep step("[1/3] Start: perception, force estimation, player");
     AdviseOnKernel();
-    run->processes().StartSensing(robot, options.calibration, images.T_robot_camera);
+    run->processes().StartSensing(robot, options.calibration, images.T_robot_camera,
+                                  BiasSettings(images, calibration));
     if (!run->AwaitComponents({"perception", "force_estimation"})) return;
     run->processes().StartPlayer(options.data);
     const auto answered = [&] { return run->comparison().frames() > 0; };
@@ -194,7 +217,8 @@ int SystemDemo(const SystemDemoOptions& options) {
       "palpate demo: forces on a soft robot, estimated live from a depth camera.\nDDS domain {}, "
       "this machine only; results in {}\n",
       place.domain_id, place.folder.string());
-  DemoRun run(place, with_truth ? LiveListener::Truth::kKnown : LiveListener::Truth::kNone);
+  DemoRun run(place, with_truth ? LiveListener::Truth::kKnown : LiveListener::Truth::kNone,
+              options.remap);
   run.SetLogFolder(place.folder);
   if (with_truth) {
     PlayBench(options, robot, &run);

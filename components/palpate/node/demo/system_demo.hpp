@@ -14,7 +14,7 @@ struct SystemDemoOptions {
   std::filesystem::path robot;        ///< file or name; empty: four_leg
   std::filesystem::path scenario;     ///< empty: config/scenarios/sensing.yaml
   std::filesystem::path data;         ///< an experiment with images instead of the virtual robot
-  std::vector<std::string> remap;     ///< FROM:=TO, where `data` are recorded messages
+  std::vector<std::string> remap;     ///< FROM:=TO, or __ns:=/NAMESPACE, of the processes
   std::filesystem::path calibration;  ///< empty: none
   int seconds = 0;                    ///< duration; 0: 30 s of the virtual robot, all of recordings
 };

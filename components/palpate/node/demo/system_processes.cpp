@@ -22,7 +22,8 @@ std::vector<std::string> BenchArguments(const std::filesystem::path& robot,
 
 }  // namespace
 
-void SystemProcesses::Start(const std::string& program, const std::vector<std::string>& arguments) {
+void SystemProcesses::Start(const std::string& program, std::vector<std::string> arguments) {
+  for (const std::string& rule : remap_) arguments.insert(arguments.end(), {"--remap", rule});
   constexpr std::string_view kPrefix = "palpate-";
   processes_.push_back(place_.Start(program, arguments, program.substr(kPrefix.size()) + ".log"));
 }
@@ -52,13 +53,15 @@ void SystemProcesses::StartPlayer(const std::filesystem::path& data) {
 
 void SystemProcesses::StartSensing(const std::filesystem::path& robot,
                                    const std::filesystem::path& calibration,
-                                   const Eigen::Isometry3d& T_robot_camera) {
+                                   const Eigen::Isometry3d& T_robot_camera,
+                                   const std::vector<std::string>& overrides) {
   const std::string pose = "camera_pose=" + Quoted(geometry::FormatPose(T_robot_camera));
   Start("palpate-perception", {"--set", pose});
   std::vector<std::string> arguments = {robot.string(), "--set", pose};
   if (!calibration.empty()) {
     arguments.insert(arguments.end(), {"--calibration", calibration.string()});
   }
+  for (const std::string& one : overrides) arguments.insert(arguments.end(), {"--set", one});
   Start("palpate-force-estimation", arguments);
 }
 

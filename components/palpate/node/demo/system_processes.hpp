@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/palpate/child_process.hpp"
@@ -18,7 +19,9 @@ namespace palpate::command {
 /// end with this object.
 class SystemProcesses {
  public:
-  explicit SystemProcesses(const DemoPlace& place) : place_(place) {}
+  /// `remap`: rules for the names of topics, as every process takes them.
+  SystemProcesses(const DemoPlace& place, std::vector<std::string> remap)
+      : place_(place), remap_(std::move(remap)) {}
 
   /// palpate-virtual-camera and palpate-capture, over GigE Vision on loopback.
   void StartVirtualCamera(const std::filesystem::path& robot,
@@ -26,9 +29,11 @@ class SystemProcesses {
   void StartVirtualRobot(const std::filesystem::path& robot, const std::filesystem::path& scenario);
   /// palpate-player: images and cables of recordings, frame after frame.
   void StartPlayer(const std::filesystem::path& data);
-  /// palpate-perception and palpate-force-estimation. `calibration`: empty: none.
+  /// palpate-perception and palpate-force-estimation. `calibration`: empty: none. `overrides`:
+  /// settings of the estimation.
   void StartSensing(const std::filesystem::path& robot, const std::filesystem::path& calibration,
-                    const Eigen::Isometry3d& T_robot_camera);
+                    const Eigen::Isometry3d& T_robot_camera,
+                    const std::vector<std::string>& overrides = {});
 
   /// Throws RunError where one has ended by itself with another code than 0.
   void CheckAlive();
@@ -38,9 +43,10 @@ class SystemProcesses {
   void Stop();
 
  private:
-  void Start(const std::string& program, const std::vector<std::string>& arguments);
+  void Start(const std::string& program, std::vector<std::string> arguments);
 
   const DemoPlace& place_;
+  std::vector<std::string> remap_;
   std::vector<std::unique_ptr<ChildProcess>> processes_;
 };
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "components/palpate/reference_verb.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/experiment/cloud/pcd.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -204,6 +205,13 @@ TEST_F(MakeExperimentTest, AFileBesideNamesPhasesCablesAndFrames) {
   EXPECT_EQ(experiment.recordings[1].actuation->columns.front().samples.front(), 0.25);
   EXPECT_EQ(experiment.rest_between_s, 2.0);
   EXPECT_EQ(experiment.T_robot_camera->translation().x(), 0.5);
+}
+
+TEST(PhaseFile, HasItsKeysInTheReference) {
+  const std::string text = Reference({"phases"}, false);
+  for (const char* key : {"`load_point_m`", "`robot_frame`", "`window_s`", "`cables`"}) {
+    EXPECT_THAT(text, HasSubstr(key));
+  }
 }
 
 TEST_F(MakeExperimentTest, PhasesThatOverlapOrAreNotInOrderAreRefused) {

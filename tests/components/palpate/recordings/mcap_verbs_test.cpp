@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "components/palpate/recordings/describe_mcap.hpp"
+#include "components/palpate/recordings/describe_recording.hpp"
 #include "components/palpate/recordings/repair_verb.hpp"
 #include "libs/core/file.hpp"
 #include "libs/recording/recorded_messages.hpp"
@@ -25,10 +25,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(DescribeMcap, SaysWhatRos2BagInfoSays) {
+TEST(DescribeRecording, SaysWhatRos2BagInfoSays) {
   const TestFolder folder;
   WriteSamples(folder / "run.mcap", Samples(100), SmallChunks());
-  const McapDescription described = DescribeMcap(recording::MessageFilesOf(folder / "run.mcap"));
+  const RecordingDescription described =
+      DescribeRecording(recording::MessageFilesOf(folder / "run.mcap"));
   EXPECT_THAT(described.text, HasSubstr("Storage id:        mcap\n"
                                         "Duration:          0.990000000s\n"
                                         "Start:             1970-01-01T00:00:01.000Z"));
@@ -43,17 +44,17 @@ TEST(DescribeMcap, SaysWhatRos2BagInfoSays) {
   EXPECT_THAT(described.json["problems"], IsEmpty());
 }
 
-TEST(DescribeMcap, FilesOfOneFolderAreOneRecording) {
+TEST(DescribeRecording, FilesOfOneFolderAreOneRecording) {
   const TestFolder folder;
   WriteSamples(folder / "run_0000.mcap", Samples(100), SmallChunks());
   WriteSamples(folder / "run_0001.mcap", Samples(50), SmallChunks());
   folder.Write("metadata.yaml", "rosbag2_bagfile_information:\n");
   EXPECT_THAT(recording::MessageFilesOf(folder.path()),
               ElementsAre(folder / "run_0000.mcap", folder / "run_0001.mcap"));
-  EXPECT_EQ(DescribeMcap(recording::MessageFilesOf(folder.path())).json["messages"], 150);
+  EXPECT_EQ(DescribeRecording(recording::MessageFilesOf(folder.path())).json["messages"], 150);
 }
 
-TEST(DescribeMcap, OtherTargetsAreNoRecordings) {
+TEST(DescribeRecording, OtherTargetsAreNoRecordings) {
   const TestFolder folder;
   WriteSamples(folder / "run.mcap", Samples(10), SmallChunks());
   folder.Write("experiment.yaml", "robot: beam.yaml\n");
@@ -62,20 +63,20 @@ TEST(DescribeMcap, OtherTargetsAreNoRecordings) {
   EXPECT_THAT(recording::MessageFilesOf("four_leg"), IsEmpty());
 }
 
-TEST(DescribeMcap, ACutFileIsDescribedWithTheRemedy) {
+TEST(DescribeRecording, ACutFileIsDescribedWithTheRemedy) {
   const TestFolder folder;
   WriteSamples(folder / "run.mcap", Samples(100), SmallChunks());
   std::filesystem::resize_file(folder / "run.mcap", 8000);
-  const McapDescription described = DescribeMcap({folder / "run.mcap"});
+  const RecordingDescription described = DescribeRecording({folder / "run.mcap"});
   EXPECT_THAT(described.text, HasSubstr("the recording was cut off"));
   EXPECT_THAT(described.text, HasSubstr("`palpate repair"));
   EXPECT_GT(described.json["messages"], 10);
 }
 
-TEST(DescribeMcap, ARecordingOfRos2IsDescribed) {
+TEST(DescribeRecording, ARecordingOfRos2IsDescribed) {
   const auto file = test_support::MeasuredDataFolder() / "ros2/ros2_humble_image_wrench.mcap";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " (set PALPATE_DATA_DIR)";
-  const McapDescription described = DescribeMcap({file});
+  const RecordingDescription described = DescribeRecording({file});
   EXPECT_THAT(described.text, HasSubstr("rt/force"));
   EXPECT_THAT(described.json["problems"], IsEmpty());
 }

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "components/palpate/recordings/describe_mcap.hpp"
+#include "components/palpate/recordings/describe_recording.hpp"
 #include "tests/components/palpate/recordings/topic_recording.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -114,7 +114,7 @@ TEST(RecordedMessages, KnowTheNewestMessageOfEachChannelBeforeATime) {
 TEST(RecordedMessages, ASqliteRecordingIsDescribed) {
   const TestFolder folder;
   Words(1000).WriteSqlite(folder / "run.db3");
-  const auto described = command::DescribeMcap({folder / "run.db3"});
+  const auto described = command::DescribeRecording({folder / "run.db3"});
   EXPECT_THAT(described.text, HasSubstr("Storage id:        sqlite3\n"));
   EXPECT_THAT(described.text, HasSubstr("Topic: /a | Type: std_msgs/msg/String | Count: 2"));
 }

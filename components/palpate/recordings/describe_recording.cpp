@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/recordings/describe_mcap.hpp"
+#include "components/palpate/recordings/describe_recording.hpp"
 
 #include <fmt/core.h>
 
@@ -141,7 +141,7 @@ Json ToJson(const Totals& totals) {
 
 }  // namespace
 
-McapDescription DescribeMcap(const std::vector<fs::path>& files) {
+RecordingDescription DescribeRecording(const std::vector<fs::path>& files) {
   const recording::RecordedMessages recorded(files);
   Totals totals;
   totals.storage_id = recorded.storage_id();

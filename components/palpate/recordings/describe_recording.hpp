@@ -11,12 +11,12 @@
 namespace palpate::command {
 
 /// What files of one recording hold.
-struct McapDescription {
+struct RecordingDescription {
   nlohmann::ordered_json json;
   std::string text;  ///< in the words of `ros2 bag info`
 };
 
 /// Of MCAP files and .db3 files of rosbag2. Throws InputError where one cannot be read.
-McapDescription DescribeMcap(const std::vector<std::filesystem::path>& files);
+RecordingDescription DescribeRecording(const std::vector<std::filesystem::path>& files);
 
 }  // namespace palpate::command
