@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "components/palpate/recordings/phase_plan.hpp"
+#include "components/palpate/system/system_file_keys.hpp"
 #include "libs/app/key_reference.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/core/error.hpp"
@@ -33,13 +34,14 @@ struct FileKind {
   const KeyTable& (*keys)();
 };
 
-constexpr std::array<FileKind, 7> kFileKinds{{{"robot", robot::RobotFileKeys},
+constexpr std::array<FileKind, 8> kFileKinds{{{"robot", robot::RobotFileKeys},
                                               {"experiment", experiment::ExperimentKeys},
                                               {"recording", experiment::RecordingKeys},
                                               {"camera", rgbd::CameraFileKeys},
                                               {"calibration", robot::CalibrationFileKeys},
                                               {"scenario", scenario::ScenarioKeys},
-                                              {"phases", PhaseFileKeys}}};
+                                              {"phases", PhaseFileKeys},
+                                              {"system", SystemFileKeys}}};
 
 std::vector<std::string> KindNames() {
   std::vector<std::string> names;
@@ -79,7 +81,7 @@ app::Verb ReferenceVerb() {
             const auto options = std::make_shared<Options>();
             arguments.Positionals("KIND", &options->kinds,
                                   "Kinds of files: robot, experiment, recording, camera, "
-                                  "calibration, scenario, phases",
+                                  "calibration, scenario, phases, system",
                                   app::Need::kRequired);
             arguments.Suggest("KIND", KindNames());
             arguments.Choice("--format", &options->format, {"markdown", "json-schema"},

@@ -9,6 +9,7 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
+#include "components/palpate/launch/launch_verb.hpp"
 #include "components/palpate/node/demo/demo_verb.hpp"
 #include "components/palpate/node/doctor/doctor_verb.hpp"
 #include "components/palpate/node/play/play_verb.hpp"
@@ -30,11 +31,11 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
-      DemoVerb(),      SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
-      DiagnoseVerb(),  ImportVerb(), CaptureVerb(),  WatchVerb(),     HealthVerb(),
-      DoctorVerb(),    TopicVerb(),  NodeVerb(),     ParamVerb(),     RecordVerb(),
-      PlayVerb(),      RepairVerb(), ExportVerb(),   InfoVerb(),      SecurityVerb(),
-      ReferenceVerb(),
+      DemoVerb(),     LaunchVerb(),    SolveVerb(),  SimulateVerb(), CalibrateVerb(),
+      EstimateVerb(), DiagnoseVerb(),  ImportVerb(), CaptureVerb(),  WatchVerb(),
+      HealthVerb(),   DoctorVerb(),    TopicVerb(),  NodeVerb(),     ParamVerb(),
+      RecordVerb(),   PlayVerb(),      RepairVerb(), ExportVerb(),   InfoVerb(),
+      SecurityVerb(), ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);

@@ -13,7 +13,6 @@
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
 
 namespace palpate::command {
 
@@ -21,29 +20,6 @@ namespace {
 
 constexpr int kFirstDomain = 120;  // far from the usual 0
 constexpr int kDomains = 100;
-
-// DDS on 127.0.0.1 only. A frame of 2 MB is sent at once. What does not fit into the receive buffer
-// is requested again after NackDelay, which delays the frame.
-constexpr char kLoopbackXml[] = R"(<?xml version="1.0" encoding="UTF-8"?>
-<CycloneDDS xmlns="https://cdds.io/config">
-  <Domain Id="any">
-    <General>
-      <Interfaces><NetworkInterface address="127.0.0.1" multicast="false"/></Interfaces>
-      <AllowMulticast>false</AllowMulticast>
-      <MaxMessageSize>65500B</MaxMessageSize>
-    </General>
-    <Internal>
-      <SocketReceiveBufferSize max="10MB"/>
-      <NackDelay>10ms</NackDelay>
-    </Internal>
-    <Discovery>
-      <ParticipantIndex>auto</ParticipantIndex>
-      <MaxAutoParticipantIndex>60</MaxAutoParticipantIndex>
-      <Peers><Peer address="127.0.0.1"/></Peers>
-    </Discovery>
-  </Domain>
-</CycloneDDS>
-)";
 
 /// Beside the programs in a build folder. Installed programs have no folder of results.
 std::filesystem::path UsualFolder(const std::filesystem::path& programs) {
@@ -85,15 +61,20 @@ DemoPlace MakeDemoPlace(const std::filesystem::path& out) {
     throw RunError("cannot create " + place.folder.string() + ": " + error.message());
   }
   place.domain_id = kFirstDomain + static_cast<int>(getpid() % kDomains);
-  WriteFile(place.folder / "cyclonedds.xml", kLoopbackXml);
-  const std::string uri = "file://" + (place.folder / "cyclonedds.xml").string();
-  setenv("CYCLONEDDS_URI", uri.c_str(), 1);
+  const std::filesystem::path settings = FindProjectFile("config/cyclonedds/one_host.xml");
+  if (settings.empty()) throw InputError("config/cyclonedds/one_host.xml is not there");
+  setenv("CYCLONEDDS_URI", ("file://" + settings.string()).c_str(), 1);
   return place;
 }
 
 void RefuseEnded(const ChildProcess& process, int exit_code) {
-  throw RunError(fmt::format("{} ended with exit code {}: {} (log: {})", process.name(), exit_code,
-                             LastLine(process.log()), process.log().string()));
+  RefuseEnded(process.name(), fmt::format("exit code {}", exit_code), process.log());
+}
+
+void RefuseEnded(const std::string& process, const std::string& end,
+                 const std::filesystem::path& log) {
+  throw RunError(
+      fmt::format("{} ended with {}: {} (log: {})", process, end, LastLine(log), log.string()));
 }
 
 }  // namespace palpate::command

@@ -30,10 +30,13 @@ struct DemoPlace {
 };
 
 /// `out`: the folder, made where it is absent; empty: demo/ beside the folder of the programs. From
-/// then on this process, and those that it starts, use DDS on 127.0.0.1 only. Throws RunError.
+/// then on this process, and those that it starts, use DDS on loopback only
+/// (config/cyclonedds/one_host.xml). Throws InputError and RunError.
 DemoPlace MakeDemoPlace(const std::filesystem::path& out);
 
-/// Throws RunError with the program, its exit code, its log and the last line of the log.
+/// Throws RunError with the process, how it ended, its log and the last line of the log.
 [[noreturn]] void RefuseEnded(const ChildProcess& process, int exit_code);
+[[noreturn]] void RefuseEnded(const std::string& process, const std::string& end,
+                              const std::filesystem::path& log);
 
 }  // namespace palpate::command

@@ -27,6 +27,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario.hpp"
 
@@ -118,7 +119,8 @@ class DemoRun {
   std::string log_folder_hint_;
 };
 
-void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot, DemoRun* run) {
+void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot,
+               const std::string& camera_address, DemoRun* run) {
   const std::filesystem::path scenario_file = ScenarioFile(options);
   const auto scenario = scenario::ReadScenario(scenario_file, app::LoadYaml);
   if (!scenario.camera)
@@ -128,10 +130,16 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
         "[1/3] Start: virtual camera (GigE Vision), capture, perception, force "
         "estimation, virtual robot");
     AdviseOnKernel();
-    run->processes().StartVirtualCamera(robot, scenario_file);
-    run->processes().StartSensing(robot, options.calibration, scenario.camera->T_robot_camera);
+    run->processes().Start(
+        {.name = "demo",
+         .variables = {{"robot", robot.string()},
+                       {"scenario", scenario_file.string()},
+                       {"camera_address", camera_address},
+                       {"camera_pose", geometry::FormatPose(scenario.camera->T_robot_camera)}},
+         .calibration = options.calibration,
+         .last = "virtual_robot"});
     if (!run->AwaitComponents({"capture", "perception", "force_estimation"})) return;
-    run->processes().StartVirtualRobot(robot, scenario_file);
+    run->processes().StartLast();
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
@@ -153,7 +161,7 @@ std::vector<std::string> BiasSettings(const ReplayedImages& images,
       "  recordings of {} frames and more, none with a calibrated depth bias: it is estimated with "
       "the forces of each frame. Intervals are wider (palpate calibrate, --calibration)\n",
       images.fewest_frames);
-  return {"shape.untouched_frames=0"};
+  return {"force_estimation.shape.untouched_frames=0"};
 }
 
 void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::path& robot,
@@ -167,17 +175,23 @@ void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::pat
   {
     const DemoStep step("[1/3] Start: perception, force estimation, player");
     AdviseOnKernel();
-    run->processes().StartSensing(robot, options.calibration, images.T_robot_camera,
-                                  BiasSettings(images, calibration));
+    run->processes().Start(
+        {.name = "replay",
+         .variables = {{"robot", robot.string()},
+                       {"data", std::filesystem::absolute(options.data)},
+                       {"camera_pose", geometry::FormatPose(images.T_robot_camera)}},
+         .calibration = options.calibration,
+         .settings = BiasSettings(images, calibration),
+         .last = "player"});
     if (!run->AwaitComponents({"perception", "force_estimation"})) return;
-    run->processes().StartPlayer(options.data);
+    run->processes().StartLast();
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
   const DemoStep step(fmt::format("[2/3] {} recordings, {} frames, each estimated before the next",
                                   images.recordings, images.frames));
   run->ShowTable();
-  const auto ended = [&] { return run->processes().HasEnded("palpate-player"); };
+  const auto ended = [&] { return run->processes().HasEnded("player"); };
   run->Listen(ended, options.seconds > 0 ? duration<double>(options.seconds) : kLongestReplay);
   run->HideTable();
 }
@@ -221,7 +235,7 @@ int SystemDemo(const SystemDemoOptions& options) {
               options.remap);
   run.SetLogFolder(place.folder);
   if (with_truth) {
-    PlayBench(options, robot, &run);
+    PlayBench(options, robot, place.CameraAddress(), &run);
   } else {
     PlayRecordings(options, robot, &run);
   }

@@ -3,86 +3,83 @@
 
 #include "components/palpate/node/demo/system_processes.hpp"
 
-#include <optional>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
-#include "libs/core/text.hpp"
-#include "libs/geometry/pose_text.hpp"
+#include "components/palpate/launch/launch_plan.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
 
 namespace palpate::command {
 
-namespace {
-
-// Random seed; fixed, so that each run is the same.
-const char* const kSeed = "7";
-
-std::vector<std::string> BenchArguments(const std::filesystem::path& robot,
-                                        const std::filesystem::path& scenario) {
-  return {robot.string(), "--scenario", scenario.string(), "--seed", kSeed};
+void LogFiles::Line(const std::string& process, std::string_view line) {
+  Append(FileOf(process), line);
 }
 
-}  // namespace
-
-void SystemProcesses::Start(const std::string& program, std::vector<std::string> arguments) {
-  for (const std::string& rule : remap_) arguments.insert(arguments.end(), {"--remap", rule});
-  constexpr std::string_view kPrefix = "palpate-";
-  processes_.push_back(place_.Start(program, arguments, program.substr(kPrefix.size()) + ".log"));
+void LogFiles::Event(const std::string& process, Severity, const std::string& text) {
+  Append(folder_ / "launch.log", process.empty() ? text : process + ": " + text);
 }
 
-void SystemProcesses::StartVirtualCamera(const std::filesystem::path& robot,
-                                         const std::filesystem::path& scenario) {
-  std::vector<std::string> arguments = BenchArguments(robot, scenario);
-  arguments.insert(arguments.end(), {"--set", "interface_address=" + place_.CameraAddress()});
-  Start("palpate-virtual-camera", arguments);
-  Start("palpate-capture", {"--camera", place_.CameraAddress()});
+std::filesystem::path LogFiles::FileOf(const std::string& process) const {
+  std::string name = process;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return folder_ / (name + ".log");
 }
 
-void SystemProcesses::StartVirtualRobot(const std::filesystem::path& robot,
-                                        const std::filesystem::path& scenario) {
-  std::vector<std::string> arguments = BenchArguments(robot, scenario);
-  // The whole system shares the cores: a second solver thread would spin while it waits for one
-  // that has no core.
-  arguments.insert(arguments.end(), {"--set", "threads=1"});
-  Start("palpate-virtual-robot", arguments);
-  processes_.back()->GiveWay();  // it stands for the real robot, which needs no core
+void LogFiles::Append(const std::filesystem::path& file, std::string_view line) {
+  const bool begins = begun_.emplace(file, true).second;
+  std::ofstream stream(file, begins ? std::ios::trunc : std::ios::app);
+  stream << line << '\n';
+  stream.close();
+  if (!stream) throw RunError("cannot write " + file.string() + ": " + std::strerror(errno));
 }
 
-void SystemProcesses::StartPlayer(const std::filesystem::path& data) {
-  Start("palpate-player",
-        {"--data", std::filesystem::absolute(data).string(), "--images", "--step"});
-}
-
-void SystemProcesses::StartSensing(const std::filesystem::path& robot,
-                                   const std::filesystem::path& calibration,
-                                   const Eigen::Isometry3d& T_robot_camera,
-                                   const std::vector<std::string>& overrides) {
-  const std::string pose = "camera_pose=" + Quoted(geometry::FormatPose(T_robot_camera));
-  Start("palpate-perception", {"--set", pose});
-  std::vector<std::string> arguments = {robot.string(), "--set", pose};
-  if (!calibration.empty()) {
-    arguments.insert(arguments.end(), {"--calibration", calibration.string()});
+void SystemProcesses::Start(const DemoSystem& demo) {
+  SystemFile system = ReadSystemFile(FindSystemFile(demo.name), app::LoadYaml, demo.variables);
+  system.domain_id = place_.domain_id;
+  HostPlan& host = ChooseHost(system, "");
+  for (ProcessPlan& plan : host.processes) {
+    plan.respawn.reset();
+    plan.remap.insert(plan.remap.end(), remap_.begin(), remap_.end());
   }
-  for (const std::string& one : overrides) arguments.insert(arguments.end(), {"--set", one});
-  Start("palpate-force-estimation", arguments);
+  for (const std::string& setting : demo.settings) ApplySet(setting, &host);
+  if (!demo.calibration.empty()) {
+    auto& words = FindProcess(host, "force_estimation").arguments;
+    words.insert(words.end(), {"--calibration", demo.calibration.string()});
+  }
+  launcher_ = std::make_unique<Launcher>(MakeLaunchPlan(system, host), system.stop, &logs_);
+  last_ = demo.last;
+  launcher_->Hold(last_);
+  CheckAlive();
+}
+
+void SystemProcesses::StartLast() {
+  PALPATE_CHECK(launcher_ != nullptr, "nothing was started");
+  launcher_->Release(last_);
+  CheckAlive();
 }
 
 void SystemProcesses::CheckAlive() {
-  for (const auto& process : processes_) {
-    const std::optional<int> ended = process->ExitCode();
-    if (ended && *ended != 0) RefuseEnded(*process, *ended);
+  if (!launcher_) return;
+  launcher_->Turn(0.0);
+  for (const ProcessReport& report : launcher_->Reports()) {
+    if (report.state != LaunchState::kFailed) continue;
+    RefuseEnded(report.name, report.reason, logs_.FileOf(report.name));
   }
 }
 
-bool SystemProcesses::HasEnded(const std::string& program) {
-  for (const auto& process : processes_) {
-    if (process->name() == program && !process->ExitCode()) return false;
+bool SystemProcesses::HasEnded(const std::string& process) const {
+  for (const ProcessReport& report : launcher_->Reports()) {
+    if (report.name == process) return report.state == LaunchState::kFinished;
   }
-  return true;
+  return false;
 }
 
 void SystemProcesses::Stop() {
-  for (auto process = processes_.rbegin(); process != processes_.rend(); ++process) {
-    (*process)->Stop();
-  }
+  if (launcher_) launcher_->StopAll("the demonstration ends");
 }
 
 }  // namespace palpate::command

@@ -3,51 +3,67 @@
 
 #pragma once
 
-#include <Eigen/Geometry>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "components/palpate/child_process.hpp"
+#include "components/palpate/launch/launcher.hpp"
 #include "components/palpate/node/demo/demo_place.hpp"
 
 namespace palpate::command {
 
-/// The processes of a system on one machine, each with its log in the demonstration's folder. All
-/// end with this object.
+/// What a demonstration changes of a system file.
+struct DemoSystem {
+  std::string name;  ///< in config/systems
+  SystemVariables variables;
+  std::filesystem::path calibration;       ///< of the process force_estimation; empty: none
+  std::vector<std::string> settings = {};  ///< "PROCESS.KEY=VALUE"
+  std::string last;                        ///< the process that starts at StartLast()
+};
+
+/// Each process writes to a log of its own, "force-estimation.log".
+class LogFiles : public LaunchOutput {
+ public:
+  explicit LogFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void Line(const std::string& process, std::string_view line) override;
+  void Event(const std::string& process, Severity severity, const std::string& text) override;
+  std::filesystem::path FileOf(const std::string& process) const;
+
+ private:
+  void Append(const std::filesystem::path& file, std::string_view line);
+
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, bool> begun_;
+};
+
+/// The processes of a system file on one machine, in the domain of the demonstration, without
+/// restarts. All end with this object.
 class SystemProcesses {
  public:
-  /// `remap`: rules for the names of topics, as every process takes them.
+  /// `remap`: rules for the names of topics, for every process.
   SystemProcesses(const DemoPlace& place, std::vector<std::string> remap)
-      : place_(place), remap_(std::move(remap)) {}
+      : place_(place), remap_(std::move(remap)), logs_(place.folder) {}
 
-  /// palpate-virtual-camera and palpate-capture, over GigE Vision on loopback.
-  void StartVirtualCamera(const std::filesystem::path& robot,
-                          const std::filesystem::path& scenario);
-  void StartVirtualRobot(const std::filesystem::path& robot, const std::filesystem::path& scenario);
-  /// palpate-player: images and cables of recordings, frame after frame.
-  void StartPlayer(const std::filesystem::path& data);
-  /// palpate-perception and palpate-force-estimation. `calibration`: empty: none. `overrides`:
-  /// settings of the estimation.
-  void StartSensing(const std::filesystem::path& robot, const std::filesystem::path& calibration,
-                    const Eigen::Isometry3d& T_robot_camera,
-                    const std::vector<std::string>& overrides = {});
+  /// Starts all but the last one. Throws InputError and RunError.
+  void Start(const DemoSystem& system);
+  void StartLast();
 
-  /// Throws RunError where one has ended by itself with another code than 0.
+  /// To be called often: passes on what the processes write. Throws RunError where one has failed.
   void CheckAlive();
-  /// Whether all programs of this name have ended.
-  bool HasEnded(const std::string& program);
+  /// Whether the process has ended.
+  bool HasEnded(const std::string& process) const;
   /// Lets all end, the youngest first.
   void Stop();
 
  private:
-  void Start(const std::string& program, std::vector<std::string> arguments);
-
   const DemoPlace& place_;
   std::vector<std::string> remap_;
-  std::vector<std::unique_ptr<ChildProcess>> processes_;
+  LogFiles logs_;
+  std::string last_;
+  std::unique_ptr<Launcher> launcher_;
 };
 
 }  // namespace palpate::command
