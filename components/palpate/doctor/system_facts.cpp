@@ -56,12 +56,12 @@ void ReadProcess(const ConfigNode& process, const std::filesystem::path& folder,
     const bool is_beside = std::filesystem::exists(folder / file);
     return is_beside ? folder / file : std::filesystem::path(file);
   };
+  const auto is_known = [](const std::string& word) { return word.find("$(") == word.npos; };
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].find("$(") != words[i].npos) continue;
-    if (i == 0 && !words[i].starts_with('-')) facts->robot = place(words[i]);
-    if (words[i] == "--calibration" && i + 1 < words.size()) {
-      facts->calibration = place(words[i + 1]);
-    }
+    const bool is_robot = i == 0 && !words[i].starts_with('-');
+    const bool is_calibration = i > 0 && words[i - 1] == "--calibration";
+    if (is_robot && is_known(words[i])) facts->robot = place(words[i]);
+    if (is_calibration && is_known(words[i])) facts->calibration = place(words[i]);
   }
 }
 
