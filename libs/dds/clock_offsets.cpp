@@ -91,7 +91,8 @@ void ClockOffsets::Take(const Exchange& message, std::int64_t received_ns) {
 
 void ClockOffsets::Send(const std::vector<std::string>& stamped_topics) {
   Message<Exchange> message;
-  const std::lock_guard lock(mutex_);
+  // Not held while writing: DDS calls Take() with locks that a writer waits for.
+  std::unique_lock lock(mutex_);
   own_topics_ = stamped_topics;
   const std::int64_t now_ns = wall_();
   std::erase_if(peers_, [&](const auto& entry) {
@@ -115,6 +116,7 @@ void ClockOffsets::Send(const std::vector<std::string>& stamped_topics) {
     echo.sent_ns = peer.sent_ns;
     echo.received_ns = peer.received_ns;
   }
+  lock.unlock();
   message->sent_ns = wall_();
   // The next one follows in a second.
   (void)writer_.Write(message);

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include "libs/core/error.hpp"
 #include "libs/dds/clock_offsets.hpp"
@@ -94,6 +96,24 @@ TEST(ClockOffsets, MeasuresTheClockOfAnotherHost) {
   EXPECT_NEAR(own.Of("/camera/frame_info")->offset_s, 2.5, clock.offset.bound_s + 1.0);
   EXPECT_EQ(other.Of("/camera/frame_info")->offset_s, 0.0);
   EXPECT_FALSE(own.Of("/robot/joint_states"));
+}
+
+/// Sending while messages come, and processes join and leave, locks nobody out.
+TEST(ClockOffsets, SendsWhileMessagesComeAndProcessesLeave) {
+  TestNode here("here");
+  ClockOffsets own(here.participant, {"a", "lab1"});
+  std::atomic<bool> stop{false};
+  std::thread sender([&] {
+    while (!stop) own.Send({});
+  });
+  for (int i = 0; i < 5; ++i) {
+    TestNode there("there");
+    ClockOffsets other(there.participant, {"b", "lab2"});
+    there.loop.Every(std::chrono::milliseconds(1), [&] { other.Send({}); });
+    EXPECT_TRUE(there.WaitFor([&] { return !other.All().empty(); }));
+  }
+  stop = true;
+  sender.join();
 }
 
 TEST(ClockOffsets, ProcessesOfOneHostHaveOneClock) {
