@@ -87,7 +87,13 @@ SystemFacts ReadSystemFacts(const ConfigNode& root, const std::string& host,
     const std::string address = TextOf(other, "address");
     if (&other != &own && !address.empty()) facts.peers.push_back(address);
   }
-  for (const ConfigNode& process : ItemsOf(own, "processes")) ReadProcess(process, folder, &facts);
+  bool has_virtual_camera = false;
+  for (const ConfigNode& process : ItemsOf(own, "processes")) {
+    ReadProcess(process, folder, &facts);
+    has_virtual_camera = has_virtual_camera || TextOf(process, "component") == "virtual_camera";
+  }
+  // It is there once the system runs.
+  if (has_virtual_camera) facts.has_genicam_camera = false;
   return facts;
 }
 

@@ -20,7 +20,7 @@ struct SystemFacts {
   std::string network_interface;      ///< of this host; empty: not told
   std::filesystem::path security;     ///< empty: none
   std::vector<std::string> peers;     ///< addresses of the other hosts
-  bool has_genicam_camera = false;    ///< palpate-capture runs on this host
+  bool has_genicam_camera = false;    ///< palpate-capture runs here, with a real one
   std::filesystem::path robot;        ///< of palpate-force-estimation here; empty: none
   std::filesystem::path calibration;  ///< given to it; empty: none
 };

@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,10 +33,8 @@ Output RunDoctor(std::vector<std::string> words) {
   return output;
 }
 
-TEST(Doctor, NamesEveryCheckOnceWithinTenSeconds) {
-  const auto begin = std::chrono::steady_clock::now();
+TEST(Doctor, NamesEveryCheckOnce) {
   const Output output = RunDoctor({"--json", "--robot", "rod"});
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   const auto json = nlohmann::json::parse(output.text);
   std::vector<std::string> names;
   for (const auto& check : json["checks"]) names.push_back(check["name"]);

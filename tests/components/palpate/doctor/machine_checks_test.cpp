@@ -167,6 +167,12 @@ TEST(DoctorFacts, ASystemFileSaysWhatThisHostNeeds) {
   EXPECT_THAT(camera.peers, ElementsAre("192.0.2.2"));
   EXPECT_TRUE(camera.has_genicam_camera);
   EXPECT_TRUE(camera.robot.empty());
+  std::string with_virtual = kSystem;
+  const std::string capture = "{name: c, component: capture}";
+  with_virtual.insert(with_virtual.find(capture) + capture.size(),
+                      "\n      - {name: v, component: virtual_camera}");
+  EXPECT_FALSE(
+      ReadSystemFacts(app::ParseYaml(with_virtual, "a.yaml"), "camera", {}).has_genicam_camera);
   const SystemFacts model = Facts("model");
   EXPECT_FALSE(model.has_genicam_camera);
   EXPECT_EQ(model.robot, "rod");
