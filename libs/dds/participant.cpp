@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libs/core/error.hpp"
+#include "libs/dds/dds_reports.hpp"
 #include "libs/dds/qos.hpp"
 #include "libs/dds/ros_names.hpp"
 #include "libs/security/permissions.hpp"
@@ -24,6 +25,7 @@ Entity CreateParticipant(const ParticipantSettings& settings) {
   }
   const Qos qos = ParticipantQos("/" + (security.enabled() ? security.identity : ""));
   SetSecurity(security, qos.get());
+  if (security.enabled()) CountRepeatedDdsReports();
   return Entity(dds_create_participant(settings.domain_id, qos.get(), nullptr),
                 "a participant in domain " + std::to_string(settings.domain_id) +
                     (security.enabled() ? " as '" + security.identity + "'" : "") +

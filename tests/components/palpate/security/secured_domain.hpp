@@ -16,6 +16,7 @@
 
 #include "components/palpate/node/security/security_verb.hpp"
 #include "libs/core/file.hpp"
+#include "libs/dds/dds_reports.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/topics.hpp"
 #include "tests/libs/dds/test_participant.hpp"
@@ -26,7 +27,10 @@ namespace palpate::command {
 /// What Cyclone DDS reports in this process, as long as this lives.
 class DdsReports {
  public:
-  DdsReports() { dds_set_log_sink(Keep, this); }
+  DdsReports() {
+    dds::CountRepeatedDdsReports();  // the first participant would do it, and take the place
+    dds_set_log_sink(Keep, this);
+  }
   ~DdsReports() { dds_set_log_sink(nullptr, nullptr); }
   DdsReports(const DdsReports&) = delete;
   DdsReports& operator=(const DdsReports&) = delete;
