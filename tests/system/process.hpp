@@ -24,6 +24,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t pid() const { return pid_; }
   void Signal(int signal);
   /// Waits for its end, at most so long: its exit code, or minus the signal that ended it.
   /// nullopt: it still runs.
