@@ -102,7 +102,9 @@ class Packages(unittest.TestCase):
         self.assertLessEqual(size, MOST_INSTALLED_MB)
 
         self.assertIn("four_leg", in_root(root, "palpate", "info", "four_leg"))
-        said = in_root(root, "palpate", "demo", "--out", "/tmp/demo")
+        # Three times the scenario: the exit code is 0 where steady forces were found, also on a
+        # machine that computes few frames a second.
+        said = in_root(root, "palpate", "demo", "--out", "/tmp/demo", "--seconds", "90")
         print(said)
         self.assertTrue((root / "tmp/demo/forces.svg").is_file())
 
