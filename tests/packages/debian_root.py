@@ -48,12 +48,26 @@ def run(*words, check=True, **options):
 
 
 def make_root(folder):
-    """A file system as that of debian:bookworm-slim. Skips where no mirror answers."""
+    """A file system as that of debian:bookworm-slim. Skips where no mirror answers. A folder that
+    debootstrap has filled before saves the download: PALPATE_DEBIAN_ROOT."""
     folder = pathlib.Path(folder)
+    made_before = os.environ.get("PALPATE_DEBIAN_ROOT")
+    if made_before:
+        run("cp", "--archive", made_before, folder)
+    else:
+        bootstrap(folder)
+    return slim_down(folder)
+
+
+def bootstrap(folder):
     done = subprocess.run(["debootstrap", "--variant=minbase", "bookworm", str(folder), MIRROR],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     if done.returncode != 0:
         skip(f"debootstrap made no Debian 12 from {MIRROR}: {done.stdout.splitlines()[-1]}")
+
+
+def slim_down(folder):
+    """Leaves out what the images debian:*-slim leave out."""
     (folder / "etc/dpkg/dpkg.cfg.d/slim").write_text(SLIM, encoding="utf-8")
     for name in ("man", "locale", "info", "lintian"):
         shutil.rmtree(folder / "usr/share" / name, ignore_errors=True)
