@@ -63,7 +63,6 @@ struct SystemFile {
   std::string transport;           ///< TransportNames(); empty: CYCLONEDDS_URI, else the default
   std::vector<std::string> peers;  ///< addresses of hosts outside this file
   std::filesystem::path security;  ///< empty: none
-  bool allow_faults = false;
   StopPlan stop;
   std::vector<HostPlan> hosts;
 };

@@ -156,7 +156,6 @@ const KeyTable& HostKeys() {
 }
 
 const KeyTable& SystemFileKeys() {
-  const SystemFile defaults;
   static const KeyTable keys{
       .title = "system file",
       .about = "Processes, their settings and their hosts, for `palpate launch`.",
@@ -173,8 +172,6 @@ const KeyTable& SystemFileKeys() {
                {"security", value::File(), kOptional,
                 "Folder with the identities and permissions of the processes. Absent: no "
                 "security."},
-               {"allow_faults", value::Boolean(), Default(defaults.allow_faults),
-                "Whether `palpate fail` may disturb the components."},
                {"stop", value::Map(StopKeys()), kOptional, "How processes are stopped."},
                {"variables", value::Map(VariableKeys()), kOptional,
                 "Values for the command line to change. Absent: none."},

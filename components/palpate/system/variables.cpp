@@ -38,8 +38,8 @@ std::string Substituted(const ConfigNode& node, const SystemVariables& values) {
   return text + node.text.substr(from);
 }
 
-/// Each may use those above it.
-SystemVariables OfFile(const ConfigNode& root) {
+/// Each may use those above it; `given` replace those of the file.
+SystemVariables OfFile(const ConfigNode& root, const SystemVariables& given) {
   SystemVariables values;
   const std::filesystem::path file = std::filesystem::absolute(root.where.file);
   values[kFolder] = file.lexically_normal().parent_path().string();
@@ -48,7 +48,8 @@ SystemVariables OfFile(const ConfigNode& root) {
   for (const auto& [name, value] : variables->entries) {
     if (name == kFolder) Refuse(value, "is the folder of the file, and cannot be set");
     if (value.kind != ConfigNode::Kind::kScalar) Refuse(value, "must be a text or a number");
-    values[name] = Substituted(value, values);
+    const auto replaced = given.find(name);
+    values[name] = replaced == given.end() ? Substituted(value, values) : replaced->second;
   }
   return values;
 }
@@ -62,13 +63,12 @@ void Substitute(const SystemVariables& values, ConfigNode* node) {
 }  // namespace
 
 void SubstituteVariables(ConfigNode* root, const SystemVariables& given) {
-  SystemVariables values = OfFile(*root);
+  const SystemVariables values = OfFile(*root, given);
   for (const auto& [name, value] : given) {
     if (name == kFolder || !values.contains(name)) {
       throw InputError(name + ":=" + value + ": " + Unknown("variable", name, NamesOf(values)) +
                        "; the key 'variables' of " + root->where.file + " names them");
     }
-    values[name] = value;
   }
   for (ConfigEntry& entry : root->entries) {
     if (entry.key != "variables") Substitute(values, &entry.value);

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 constexpr auto kLimit = std::chrono::seconds(60);
 
-class LaunchVerb : public testing::Test {
+class LaunchCommand : public testing::Test {
  protected:
   /// A file with one host and these processes, each a line of YAML.
   std::string System(const std::vector<std::string>& processes, const std::string& more = "") {
@@ -32,7 +32,7 @@ class LaunchVerb : public testing::Test {
     return folder_.Write("test.yaml", text).string();
   }
 
-  int Run(std::vector<std::string> words) {
+  int RunLaunch(std::vector<std::string> words) {
     words.insert(words.begin(), "launch");
     Process launch("palpate", words, folder_ / "log");
     const auto code = launch.Wait(kLimit);
@@ -54,11 +54,11 @@ class LaunchVerb : public testing::Test {
   TestFolder folder_;
 };
 
-TEST_F(LaunchVerb, PrefixesLinesAndClosesWithATable) {
+TEST_F(LaunchCommand, PrefixesLinesAndClosesWithATable) {
   const std::string system =
       System({"{name: greeter, program: sh, arguments: [-c, \"echo hello\"]}",
               "{name: other, program: sh, arguments: [-c, \"exit 5\"]}"});
-  EXPECT_EQ(Run({system}), 0);  // none is required
+  EXPECT_EQ(RunLaunch({system}), 0);  // none is required
   EXPECT_THAT(Log(), HasSubstr("[greeter] hello\n"));
   EXPECT_THAT(Log(), HasSubstr("[launch]  other: failed: exit code 5"));
   EXPECT_THAT(Log(), testing::ContainsRegex("greeter +finished +0 +0 +[0-9.]+ s +[0-9.]+ MB\n"));
@@ -66,22 +66,22 @@ TEST_F(LaunchVerb, PrefixesLinesAndClosesWithATable) {
   EXPECT_THAT(Log(), testing::Not(HasSubstr("\033")));  // no colour in a file
 }
 
-TEST_F(LaunchVerb, ARequiredOneThatFailsEndsAllWithOne) {
+TEST_F(LaunchCommand, ARequiredOneThatFailsEndsAllWithOne) {
   const std::string system =
       System({"{name: a, program: sh, arguments: [-c, \"exit 5\"], required: true}",
               "{name: b, program: sleep, arguments: [600]}"});
-  EXPECT_EQ(Run({system}), 1);
+  EXPECT_EQ(RunLaunch({system}), 1);
   EXPECT_THAT(Log(), HasSubstr("the required process a failed"));
 }
 
-TEST_F(LaunchVerb, ARequiredOneThatFinishesEndsAllWithZero) {
+TEST_F(LaunchCommand, ARequiredOneThatFinishesEndsAllWithZero) {
   const std::string system =
       System({"{name: a, program: \"true\", required: true}",
               "{name: b, program: sleep, arguments: [600], required: true}"});
-  EXPECT_EQ(Run({system}), 0);
+  EXPECT_EQ(RunLaunch({system}), 0);
 }
 
-TEST_F(LaunchVerb, ASecondSignalHurries) {
+TEST_F(LaunchCommand, ASecondSignalHurries) {
   const std::string system = System(
       {"{name: a, program: sh, arguments: [-c, \"trap '' INT TERM; echo armed; while :; do sleep "
        "0.05; done\"], required: true}"},
@@ -97,7 +97,7 @@ TEST_F(LaunchVerb, ASecondSignalHurries) {
   EXPECT_THAT(Log(), HasSubstr("still runs: SIGKILL"));
 }
 
-TEST_F(LaunchVerb, JsonIsAllOfTheStandardOutput) {
+TEST_F(LaunchCommand, JsonIsAllOfTheStandardOutput) {
   const std::string system = System({"{name: a, program: sh, arguments: [-c, \"exit 5\"]}"});
   const std::string out = (folder_ / "out").string();
   const std::string line = std::string(PALPATE_BINARY_DIR "/bin/palpate launch ") + system +
@@ -110,10 +110,10 @@ TEST_F(LaunchVerb, JsonIsAllOfTheStandardOutput) {
   EXPECT_THAT(ReadFile(folder_ / "err"), HasSubstr("a: failed"));
 }
 
-TEST_F(LaunchVerb, ADryRunPrintsWhatWouldBeStarted) {
-  EXPECT_EQ(
-      Run({"demo", "--dry-run", "--set", "perception.min_z_m=0.2", "robot:=rod", "--domain", "77"}),
-      0);
+TEST_F(LaunchCommand, ADryRunPrintsWhatWouldBeStarted) {
+  EXPECT_EQ(RunLaunch({"demo", "--dry-run", "--set", "perception.min_z_m=0.2", "robot:=rod",
+                       "--domain", "77"}),
+            0);
   EXPECT_THAT(Log(), HasSubstr("/palpate-perception --set 'camera_pose="));
   EXPECT_THAT(Log(), HasSubstr("--set min_z_m=0.2"));
   EXPECT_THAT(Log(), HasSubstr("/palpate-force-estimation rod "));
@@ -121,15 +121,15 @@ TEST_F(LaunchVerb, ADryRunPrintsWhatWouldBeStarted) {
   EXPECT_THAT(Log(), HasSubstr("config/cyclonedds/one_host.xml"));
 }
 
-TEST_F(LaunchVerb, RefusesWhatItCannotRead) {
-  EXPECT_EQ(Run({"no_such_system"}), 2);
-  EXPECT_EQ(Run({"demo", "robot=rod"}), 2);
+TEST_F(LaunchCommand, RefusesWhatItCannotRead) {
+  EXPECT_EQ(RunLaunch({"no_such_system"}), 2);
+  EXPECT_EQ(RunLaunch({"demo", "robot=rod"}), 2);
   EXPECT_THAT(Log(), HasSubstr("NAME:=VALUE"));
-  EXPECT_EQ(Run({"demo", "--host", "moon"}), 2);
+  EXPECT_EQ(RunLaunch({"demo", "--host", "moon"}), 2);
   EXPECT_THAT(Log(), HasSubstr("unknown host 'moon'"));
 }
 
-TEST_F(LaunchVerb, RunsComponentsAndStopsThemOnASignal) {
+TEST_F(LaunchCommand, RunsComponentsAndStopsThemOnASignal) {
   const std::string system =
       System({"{name: perception, component: perception, required: true}",
               "{name: recorder, component: recorder, arguments: [--out, " +
@@ -144,16 +144,16 @@ TEST_F(LaunchVerb, RunsComponentsAndStopsThemOnASignal) {
   EXPECT_THAT(Log(), testing::ContainsRegex("perception +stopped +0 "));
 }
 
-TEST_F(LaunchVerb, AComponentWithWrongSettingsIsNotStartedAgain) {
+TEST_F(LaunchCommand, AComponentWithWrongSettingsIsNotStartedAgain) {
   const std::string system =
       System({"{name: perception, component: perception, set: {no_such: 1}, required: true, "
               "respawn: {}}"});
-  EXPECT_EQ(Run({system}), 1);
+  EXPECT_EQ(RunLaunch({system}), 1);
   EXPECT_THAT(Log(), HasSubstr("[perception] "));
   EXPECT_THAT(Log(), HasSubstr("wrong usage or settings, not started again"));
 }
 
-TEST_F(LaunchVerb, StartsAKilledComponentAgain) {
+TEST_F(LaunchCommand, StartsAKilledComponentAgain) {
   const std::string system =
       System({"{name: perception, component: perception, required: true, respawn: {backoff_s: "
               "0.01}}"});

@@ -24,7 +24,7 @@ using test_support::TestFolder;
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr auto kLimit = std::chrono::seconds(30);
+constexpr auto kLauncherLimit = std::chrono::seconds(30);
 
 class NotingOutput : public LaunchOutput {
  public:
@@ -50,7 +50,7 @@ LaunchedProcess Shell(const std::string& name, const std::string& script, bool n
 
 /// Turns until `done`; false where that takes too long.
 bool TurnUntil(Launcher* launcher, const std::function<bool()>& done) {
-  const auto deadline = std::chrono::steady_clock::now() + kLimit;
+  const auto deadline = std::chrono::steady_clock::now() + kLauncherLimit;
   while (!done()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
     launcher->Turn(0.05);
@@ -74,8 +74,8 @@ bool Runs(pid_t pid) {
   return end != std::string::npos && text.size() > end + 2 && text[end + 2] != 'Z';
 }
 
-bool WaitFor(const std::function<bool()>& done) {
-  const auto deadline = std::chrono::steady_clock::now() + kLimit;
+bool WaitUntil(const std::function<bool()>& done) {
+  const auto deadline = std::chrono::steady_clock::now() + kLauncherLimit;
   while (!done()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -86,7 +86,7 @@ bool WaitFor(const std::function<bool()>& done) {
 /// The process numbers that scripts wrote, one a line; all `count` of them.
 std::vector<pid_t> ReadPids(const std::filesystem::path& file, std::size_t count) {
   std::vector<pid_t> pids;
-  WaitFor([&] {
+  WaitUntil([&] {
     pids.clear();
     std::ifstream stream(file);
     for (pid_t pid = 0; stream >> pid;) pids.push_back(pid);
@@ -226,7 +226,7 @@ TEST(Launcher, EndsTheChildrenOfAProcessWithIt) {
   ASSERT_TRUE(RunToTheEnd(&launcher));
   const std::vector<pid_t> left = ReadPids(pids, 1);
   ASSERT_EQ(left.size(), 1U);
-  EXPECT_TRUE(WaitFor([&] { return !Runs(left[0]); }));
+  EXPECT_TRUE(WaitUntil([&] { return !Runs(left[0]); }));
 }
 
 // The launcher itself is killed: in another process, so that it can be.
@@ -248,7 +248,7 @@ TEST(Launcher, NothingIsLeftWhenTheLauncherIsKilled) {
   EXPECT_EQ(left.size(), 3U);
   kill(launcher_pid, SIGKILL);
   waitpid(launcher_pid, nullptr, 0);
-  for (const pid_t pid : left) EXPECT_TRUE(WaitFor([&] { return !Runs(pid); })) << pid;
+  for (const pid_t pid : left) EXPECT_TRUE(WaitUntil([&] { return !Runs(pid); })) << pid;
 }
 
 }  // namespace

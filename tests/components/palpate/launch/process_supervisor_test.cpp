@@ -24,7 +24,7 @@ ProcessSupervisor::Rules WithRespawn(const RespawnPlan& respawn) {
 }
 
 /// Allowed, started and ready at `now_s`.
-void Run(double now_s, ProcessSupervisor* process) {
+void RunAt(double now_s, ProcessSupervisor* process) {
   process->Allow(now_s);
   ASSERT_EQ(process->Next(now_s), Action::kStart);
   process->Started(now_s);
@@ -71,7 +71,7 @@ TEST(ProcessSupervisor, OneThatIsNotReadyInTimeIsStoppedAndHasFailed) {
 
 TEST(ProcessSupervisor, EndedWithZeroIsFinishedAndNotStartedAgain) {
   ProcessSupervisor process(WithRespawn({}));
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(5.0, kWell);
   EXPECT_EQ(process.state(), LaunchState::kFinished);
   EXPECT_FALSE(process.HasFailed());
@@ -80,14 +80,14 @@ TEST(ProcessSupervisor, EndedWithZeroIsFinishedAndNotStartedAgain) {
 
 TEST(ProcessSupervisor, AlwaysStartsAgainAfterZero) {
   ProcessSupervisor process(WithRespawn({.always = true}));
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(5.0, kWell);
   EXPECT_EQ(process.state(), LaunchState::kBackingOff);
 }
 
 TEST(ProcessSupervisor, WithoutRespawnAFailureIsFinal) {
   ProcessSupervisor process({});
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(5.0, kCrash);
   EXPECT_EQ(process.state(), LaunchState::kFailed);
   EXPECT_TRUE(process.HasFailed());
@@ -97,7 +97,7 @@ TEST(ProcessSupervisor, TheWaitDoublesUpToTheLongestAndTheLimitEndsIt) {
   ProcessSupervisor process(
       WithRespawn({.limit = 4, .backoff_s = 1.0, .longest_backoff_s = 3.0, .reset_after_s = 60.0}));
   double now_s = 0.0;
-  Run(now_s, &process);
+  RunAt(now_s, &process);
   for (const double wait_s : {1.0, 2.0, 3.0, 3.0}) {
     now_s += 1.0;
     process.Ended(now_s, kCrash);
@@ -118,7 +118,7 @@ TEST(ProcessSupervisor, TheWaitDoublesUpToTheLongestAndTheLimitEndsIt) {
 TEST(ProcessSupervisor, ALongRunBeginsTheRowAgain) {
   ProcessSupervisor process(
       WithRespawn({.limit = 1, .backoff_s = 1.0, .longest_backoff_s = 8.0, .reset_after_s = 60.0}));
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(10.0, kCrash);
   process.Started(11.0);
   process.Ready(12.0);
@@ -127,7 +127,7 @@ TEST(ProcessSupervisor, ALongRunBeginsTheRowAgain) {
 
   ProcessSupervisor other(
       WithRespawn({.limit = 1, .backoff_s = 1.0, .longest_backoff_s = 8.0, .reset_after_s = 60.0}));
-  Run(0.0, &other);
+  RunAt(0.0, &other);
   other.Ended(10.0, kCrash);
   other.Started(11.0);
   other.Ready(12.0);
@@ -140,7 +140,7 @@ TEST(ProcessSupervisor, WrongSettingsOfAComponentAreFinal) {
   ProcessSupervisor::Rules rules = WithRespawn({});
   rules.exit_2_is_final = true;
   ProcessSupervisor process(rules);
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(0.1, {.exit_code = 2});
   EXPECT_EQ(process.state(), LaunchState::kFailed);
   EXPECT_THAT(process.reason(), HasSubstr("wrong usage or settings"));
@@ -158,7 +158,7 @@ TEST(ProcessSupervisor, AStartThatFailsCountsAsAFailure) {
 
 TEST(ProcessSupervisor, AStopTakesStrongerSignalsWithTheWaitsOfThePlan) {
   ProcessSupervisor process({.respawn = {}, .stop = {.interrupt_s = 5.0, .terminate_s = 2.0}});
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Stop(10.0);
   EXPECT_EQ(process.Next(10.0), Action::kInterrupt);
   EXPECT_EQ(process.Next(14.9), Action::kNone);
@@ -173,7 +173,7 @@ TEST(ProcessSupervisor, AStopTakesStrongerSignalsWithTheWaitsOfThePlan) {
 
 TEST(ProcessSupervisor, HurrySendsTheNextSignalAtOnce) {
   ProcessSupervisor process({});
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Stop(10.0);
   EXPECT_EQ(process.Next(10.0), Action::kInterrupt);
   process.Hurry(10.1);
@@ -186,14 +186,14 @@ TEST(ProcessSupervisor, WhatEndsByTheSignalOfAStopHasNotFailed) {
   for (const ProcessEnd& end :
        {kWell, ProcessEnd{.exit_code = 130}, ProcessEnd{.exit_code = 0, .signal = SIGINT}}) {
     ProcessSupervisor process(WithRespawn({}));
-    Run(0.0, &process);
+    RunAt(0.0, &process);
     process.Stop(1.0);
     process.Ended(1.1, end);
     EXPECT_EQ(process.state(), LaunchState::kStopped);
     EXPECT_FALSE(process.HasFailed()) << Describe(end);
   }
   ProcessSupervisor process({});
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Stop(1.0);
   process.Ended(1.1, {.exit_code = 0, .signal = SIGSEGV});
   EXPECT_TRUE(process.HasFailed());
@@ -201,7 +201,7 @@ TEST(ProcessSupervisor, WhatEndsByTheSignalOfAStopHasNotFailed) {
 
 TEST(ProcessSupervisor, AStopEndsTheWaitForARestart) {
   ProcessSupervisor process(WithRespawn({}));
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(1.0, kCrash);
   process.Stop(1.5);
   EXPECT_EQ(process.state(), LaunchState::kStopped);
@@ -210,7 +210,7 @@ TEST(ProcessSupervisor, AStopEndsTheWaitForARestart) {
 
 TEST(ProcessSupervisor, AddsRunTimesAndKeepsTheLargestMemory) {
   ProcessSupervisor process(WithRespawn({}));
-  Run(0.0, &process);
+  RunAt(0.0, &process);
   process.Ended(2.0, kCrash);
   process.Started(3.0);
   EXPECT_DOUBLE_EQ(process.RunTime_s(4.0), 3.0);

@@ -48,7 +48,6 @@ domain: 7
 namespace: /left
 transport: lan
 security: keys
-allow_faults: true
 stop: {interrupt_s: 2, terminate_s: 3}
 variables: {robot: beam}
 hosts:
@@ -73,7 +72,6 @@ hosts:
   EXPECT_EQ(system.domain_id, 7);
   EXPECT_EQ(system.node_namespace, "/left");
   EXPECT_EQ(system.security, folder_ / "keys");
-  EXPECT_TRUE(system.allow_faults);
   EXPECT_EQ(system.stop.terminate_s, 3.0);
   ASSERT_EQ(system.hosts.size(), 1U);
   EXPECT_EQ(system.hosts[0].network_interface, "eth0");
@@ -147,6 +145,10 @@ TEST_F(SystemFiles, ReplaceVariables) {
   const ProcessPlan plan = Read(text, {{"robot", "rod"}}).hosts[0].processes[0];
   EXPECT_EQ(plan.nice, 3);
   EXPECT_THAT(plan.arguments, ElementsAre((folder_ / "x").string(), "rod_3"));
+  const std::string nested =
+      "name: s\nvariables: {a: x, b: $(a)/y}\nhosts:\n  - name: h\n    processes:\n"
+      "      - {name: a, component: capture, arguments: [$(b)]}\n";
+  EXPECT_THAT(Read(nested, {{"a", "z"}}).hosts[0].processes[0].arguments, ElementsAre("z/y"));
   EXPECT_THAT(Refusal(text, {{"robt", "rod"}}), HasSubstr("did you mean 'robot'?"));
   EXPECT_THAT(ProcessRefusal("{name: a, component: capture, arguments: [$(x)]}"),
               AllOf(HasSubstr("system.yaml:5:"), HasSubstr("unknown variable 'x'")));
@@ -158,7 +160,9 @@ TEST_F(SystemFiles, TheShippedOnesAreReadAndTheirHostsPlanned) {
   for (const std::string& name : KnownSystems()) {
     const SystemFile system = ReadSystemFile(FindSystemFile(name), app::LoadYaml);
     EXPECT_EQ(system.name, name);
-    for (const HostPlan& host : system.hosts) EXPECT_FALSE(host.processes.empty());
+    for (HostPlan host : system.hosts) {
+      for (const ProcessPlan& plan : host.processes) EXPECT_EQ(plan.where.file, system.file);
+    }
   }
   EXPECT_THAT(MessageOf([] { FindSystemFile("dmo"); }), HasSubstr("did you mean 'demo'?"));
 }
@@ -219,6 +223,23 @@ TEST_F(SystemFiles, RefuseProgramsAndSettingsThatAreNotThere) {
               AllOf(HasSubstr("system.yaml:5:"), HasSubstr("no program 'no_such_program'")));
   EXPECT_THAT(plan("{name: a, component: capture, settings: none.yaml}"),
               HasSubstr("no settings file"));
+}
+
+TEST_F(SystemFiles, TellTheProcessesWhereTheOtherHostsAre) {
+  const SystemFile system = Read(
+      "name: s\ntransport: lossy_link\npeers: [10.0.0.9]\nsecurity: keys\nhosts:\n"
+      "  - {name: x, address: 10.0.0.1, processes: [{name: a, component: capture}]}\n"
+      "  - {name: y, address: 10.0.0.2, interface: eth1, "
+      "processes: [{name: b, component: perception}]}\n");
+  if (FindProjectFile("config/cyclonedds/lossy_link.xml").empty()) {
+    GTEST_SKIP() << "config/cyclonedds/lossy_link.xml is not there";
+  }
+  const auto x = MiddlewareEnvironment(system, system.hosts[0]);
+  EXPECT_THAT(x.at("CYCLONEDDS_URI"), testing::EndsWith("config/cyclonedds/lossy_link.xml"));
+  EXPECT_EQ(x.at("PALPATE_PEERS"), "10.0.0.2,10.0.0.9");
+  EXPECT_EQ(x.at("PALPATE_INTERFACE"), "10.0.0.1");
+  EXPECT_EQ(x.at("PALPATE_SECURITY_DIR"), (folder_ / "keys").string());
+  EXPECT_EQ(MiddlewareEnvironment(system, system.hosts[1]).at("PALPATE_INTERFACE"), "eth1");
 }
 
 TEST_F(SystemFiles, OneOfSeveralHostsIsChosenByNameOrAddress) {
