@@ -117,6 +117,10 @@ ExperimentPlayer ExperimentPlayer::OfImages(experiment::Experiment experiment,
     auto times_s = EventTimes(TimesOfImages(*images), candidate);
     player.tracks_.push_back({&candidate, Eigen::Isometry3d::Identity(), MeasurementFrame::kCamera,
                               Eigen::Vector3d::Zero(), std::move(times_s), std::move(images)});
+    const auto pose = experiment::RobotFromCamera(player.experiment_, candidate);
+    if (const auto* known = std::get_if<Eigen::Isometry3d>(&pose)) {
+      player.tracks_.back().T_robot_camera = *known;
+    }
   }
   player.CheckTracks(recording, "images");
   return player;
@@ -173,7 +177,7 @@ std::optional<Event> ExperimentPlayer::Next() {
 void ExperimentPlayer::AddImages(const Track& track, double t_s, Event* event) {
   const auto& frames = track.images->frames;
   if (frame_ == frames.size() || SecondsOf(frames[frame_]) != t_s) return;
-  event->images = ImageSet{track.images.get(), frame_, frames[frame_].t_ns};
+  event->images = ImageSet{track.images.get(), frame_, frames[frame_].t_ns, track.T_robot_camera};
   ++frame_;
 }
 

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -44,6 +44,7 @@ struct ImageSet {
   const experiment::RgbdSequence* sequence = nullptr;  ///< of the player
   std::size_t index = 0;
   std::int64_t t_ns = 0;
+  std::optional<Eigen::Isometry3d> T_robot_camera = {};  ///< nullopt: the experiment has none
 };
 
 /// What happened at one time of a recording: cable inputs (linear between the rows of
@@ -98,6 +99,7 @@ class ExperimentPlayer {
     Eigen::Vector3d sigma_m;
     std::vector<double> times_s;                       ///< of all events, rising
     std::unique_ptr<experiment::RgbdSequence> images;  ///< stays where it is: events point to it
+    std::optional<Eigen::Isometry3d> T_robot_camera = {};  ///< of the images
   };
 
   explicit ExperimentPlayer(experiment::Experiment experiment);

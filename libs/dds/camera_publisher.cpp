@@ -17,10 +17,15 @@ CameraPublisher::CameraPublisher(Participant& participant, const std::function<v
       transforms_{participant} {}
 
 bool CameraPublisher::PublishCamera(const rgbd::RgbdCamera& camera, const CameraIdentity& identity,
-                                    std::int64_t stamp_ns) {
+                                    std::int64_t stamp_ns,
+                                    const std::optional<Eigen::Isometry3d>& T_robot_camera) {
   bool sent = setup_.Write(ToCameraSetup(camera, identity, stamp_ns));
   sent &=
       depth_camera_.Write(ToCameraInfo(camera.depth, stamp_ns, geometry::kCameraDepthOpticalFrame));
+  if (T_robot_camera) {
+    sent &= transforms_.Set(geometry::kRobotFrame, geometry::kCameraDepthOpticalFrame,
+                            *T_robot_camera, stamp_ns);
+  }
   if (camera.color.width_px == 0) return sent;
   if (!camera.color_registered) {
     sent &= transforms_.Set(geometry::kCameraDepthOpticalFrame, geometry::kCameraColorOpticalFrame,

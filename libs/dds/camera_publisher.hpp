@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "libs/dds/camera_messages.hpp"
@@ -21,10 +22,11 @@ class CameraPublisher {
  public:
   explicit CameraPublisher(Participant& participant, const std::function<void()>& on_change = {});
 
-  /// Set-up, lenses and, of a colour camera beside the depth camera, its place on /tf_static;
-  /// before the frames of an epoch.
+  /// Set-up and lenses; on /tf_static the place of a colour camera beside the depth camera and,
+  /// where it is known, that of the depth camera. Before the frames of an epoch.
   [[nodiscard]] bool PublishCamera(const rgbd::RgbdCamera& camera, const CameraIdentity& identity,
-                                   std::int64_t stamp_ns);
+                                   std::int64_t stamp_ns,
+                                   const std::optional<Eigen::Isometry3d>& T_robot_camera = {});
   /// Depth, colour (where there is any) and what is known about them, under one stamp.
   [[nodiscard]] bool PublishFrame(const rgbd::RgbdCamera& camera, const rgbd::RgbdFrame& images,
                                   std::int64_t stamp_ns, const idl::palpate_msgs::FrameInfo& info);

@@ -6,20 +6,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
-#include "libs/core/error.hpp"
-#include "libs/rgbd/jpeg.hpp"
-#include "libs/rgbd/png.hpp"
 #include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::command {
 
 namespace {
-
-/// In front of the PNG of image_transport's compressedDepth: which format, and two parameters.
-constexpr std::size_t kDepthHeader = 12;
 
 bool IsDepthEncoding(const std::string& encoding) {
   return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
@@ -68,42 +61,6 @@ void CopyMetres(const RosImage& image, RosDepth* depth) {
   }
 }
 
-/// compressed_depth_image_transport packs metres as a / (value - b), with 0 for nothing seen.
-void UnpackMetres(std::string_view header, RosDepth* depth) {
-  float a = 0.0f;
-  float b = 0.0f;
-  std::memcpy(&a, header.data() + 4, sizeof(a));
-  std::memcpy(&b, header.data() + 8, sizeof(b));
-  for (const std::uint16_t value : depth->steps.values) {
-    const float z_m = a / (static_cast<float>(value) - b);
-    const bool seen = value != 0 && std::isfinite(z_m) && z_m > 0.0f;
-    depth->range_m.push_back(seen ? z_m : std::numeric_limits<float>::quiet_NaN());
-  }
-  depth->steps = {};
-}
-
-std::string DecodePacked(const RosImage& image, RosDepth* depth) {
-  const bool with_header = image.format.find("compressedDepth") != std::string::npos;
-  if (image.format.find("rvl") != std::string::npos) {
-    return "is packed as RVL, which is not read; record PNG (parameter " +
-           std::string("compressedDepth.format) or the raw image");
-  }
-  if (with_header && image.data.size() < kDepthHeader) return "is no whole image";
-  const std::string_view png = with_header ? image.data.substr(kDepthHeader) : image.data;
-  try {
-    depth->steps = rgbd::DecodeDepthPng(png, "PNG");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  depth->width_px = depth->steps.width_px;
-  depth->height_px = depth->steps.height_px;
-  if (image.encoding == "32FC1") {
-    if (!with_header) return "32FC1 cannot be packed as PNG without compressedDepth";
-    UnpackMetres(image.data, depth);
-  }
-  return {};
-}
-
 }  // namespace
 
 bool RosImage::IsDepth() const {
@@ -144,7 +101,7 @@ std::string ReadImage(std::string_view cdr, const MessageType& type, RosImage* i
 
 std::string DecodeRosDepth(const RosImage& image, RosDepth* depth) {
   *depth = {};
-  if (image.compressed()) return DecodePacked(image, depth);
+  if (image.compressed()) return rgbd::DecodeCompressedDepth(image.format, image.data, depth);
   const bool metres = image.encoding == "32FC1";
   if (std::string cause = CheckSize(image, metres ? 4 : 2); !cause.empty()) return cause;
   depth->width_px = static_cast<int>(image.width);
@@ -154,16 +111,7 @@ std::string DecodeRosDepth(const RosImage& image, RosDepth* depth) {
 }
 
 std::string DecodeRosColor(const RosImage& image, rgbd::ColorImage* color) {
-  if (image.compressed()) {
-    try {
-      const bool jpeg = image.data.starts_with("\xff\xd8");
-      *color =
-          jpeg ? rgbd::DecodeJpeg(image.data, "JPEG") : rgbd::DecodeColorPng(image.data, "PNG");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
-  }
+  if (image.compressed()) return rgbd::DecodeCompressedColor(image.data, color);
   const rgbd::ColorLayout* layout = rgbd::ColorLayoutOf(image.encoding);
   if (layout == nullptr) {
     return "encoding '" + image.encoding + "' is not known (rgb8, bgr8, rgba8, bgra8, mono8)";

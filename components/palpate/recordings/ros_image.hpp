@@ -10,6 +10,7 @@
 
 #include "components/palpate/recordings/message_type.hpp"
 #include "libs/rgbd/image.hpp"
+#include "libs/rgbd/ros_compressed.hpp"
 
 namespace palpate::command {
 
@@ -38,13 +39,7 @@ inline constexpr char kCompressedImageType[] = "sensor_msgs/msg/CompressedImage"
 /// Empty: done; else why the message is no image.
 [[nodiscard]] std::string ReadImage(std::string_view cdr, const MessageType& type, RosImage* image);
 
-/// Depth as the message has it.
-struct RosDepth {
-  int width_px = 0;
-  int height_px = 0;
-  rgbd::DepthImage steps;      ///< of 16-bit images; else empty
-  std::vector<float> range_m;  ///< of 32-bit images, row by row; NaN: nothing seen
-};
+using rgbd::RosDepth;
 
 /// Empty: done; else why not. `image` must be depth.
 [[nodiscard]] std::string DecodeRosDepth(const RosImage& image, RosDepth* depth);

@@ -11,6 +11,7 @@ namespace palpate::perception {
 struct CameraConfig {
   std::string source = "capture";
   std::string reliability = "best_effort";
+  std::string transport = "raw";
   bool use_color = true;
   double pairing_tolerance_s = 0.0;
   double depth_unit_m = 1e-3;
@@ -27,6 +28,9 @@ struct CameraConfig {
       "driver: QoS that is asked for; best_effort takes the streams of every driver, reliable "
       "those "
       "of reliable publishers only, of which lost packets are sent again");
+    v("transport", transport, {"raw", "compressed"},
+      "driver: images as they are, or as image_transport packs them, on <image topic>/compressed "
+      "(colour, JPEG or PNG) and <image topic>/compressedDepth (PNG)");
     v("use_color", use_color, "driver: use colour images; false: depth alone");
     v("pairing_tolerance_s", pairing_tolerance_s, {.min = 0.0, .max = 10.0},
       "driver: largest difference of the stamps of a depth image and its colour image; 0: three "

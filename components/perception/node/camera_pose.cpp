@@ -9,6 +9,29 @@
 
 namespace palpate::perception {
 
+namespace {
+
+/// Joints at rest move less than this, and camera poses are calibrated no better.
+constexpr double kAtRest_m = 1e-3;
+constexpr double kAtRest_rad = 2e-3;
+
+bool HasMoved(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  const Eigen::Isometry3d motion = a.inverse() * b;
+  return motion.translation().norm() > kAtRest_m ||
+         Eigen::AngleAxisd(motion.linear()).angle() > kAtRest_rad;
+}
+
+}  // namespace
+
+Status CameraPose::FollowFrames(const Eigen::Isometry3d& T_robot_camera, const std::string& frame) {
+  if (!T_robot_camera_) of_frames_ = T_robot_camera_ = T_robot_camera;
+  if (!of_frames_ || !HasMoved(*of_frames_, T_robot_camera)) return Status::Ok();
+  return {StatusCode::kInvalidInput,
+          "frame '" + frame +
+              "' moves against 'robot' on /tf: a camera on a moving mount is not supported; hold "
+              "it still, and start again where it then stands"};
+}
+
 Status CameraPose::Take(const idl::palpate_msgs::Calibration& message) {
   if (!message.has_camera) return Status::Ok();
   Received received{Eigen::Isometry3d::Identity(), std::string(dds::Text(message.mesh_hash)),

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -42,6 +43,8 @@ class CameraStreams {
   virtual std::string device() const = 0;
   /// The frame of the depth image as its publisher names it; empty: not known yet.
   virtual std::string depth_frame() const = 0;
+  /// Where transforms of ROS 2 have the depth camera; nullopt: they do not say, or are not read.
+  virtual std::optional<Eigen::Isometry3d> T_robot_depth() const { return std::nullopt; }
   virtual std::optional<double> subpixel_sigma_px() const = 0;
   virtual std::uint64_t setups() const = 0;  ///< times that the camera was set up
   virtual const dds::Endpoint& depths() const = 0;

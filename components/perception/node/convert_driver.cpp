@@ -11,10 +11,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "components/perception/node/convert.hpp"
 #include "libs/dds/invalid_message.hpp"
 #include "libs/dds/message.hpp"
+#include "libs/rgbd/ros_compressed.hpp"
 #include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::perception {
@@ -23,6 +25,7 @@ namespace {
 
 using dds::Invalid;
 using idl::sensor_msgs::CameraInfo;
+using idl::sensor_msgs::CompressedImage;
 using idl::sensor_msgs::Image;
 
 Status UnknownEncoding(const Image& message, const std::string& known) {
@@ -43,20 +46,43 @@ Status CopyRaw(const Image& message, rgbd::DepthImage* image) {
   return Status::Ok();
 }
 
+/// Metres in steps; 0 where nothing is seen, or beyond the range.
+class DepthSteps {
+ public:
+  DepthSteps(double largest_z_m, double unit_m)
+      : largest_m_(static_cast<float>(largest_z_m)),
+        steps_per_m_(static_cast<float>(1.0 / unit_m)) {}
+
+  std::uint16_t Of(float z_m) const {
+    const bool valid = z_m > 0.0f && z_m <= largest_m_;  // false for NaN, too
+    return valid ? static_cast<std::uint16_t>(std::lround(z_m * steps_per_m_)) : std::uint16_t{0};
+  }
+
+ private:
+  float largest_m_;
+  float steps_per_m_;
+};
+
+double UnitOfMetres_m(double largest_z_m) {
+  return largest_z_m / std::numeric_limits<std::uint16_t>::max();
+}
+
+std::string_view DataOf(const CompressedImage& message) {
+  return {reinterpret_cast<const char*>(message.data._buffer), message.data._length};
+}
+
 Status CopyMetres(const Image& message, double largest_z_m, double unit_m,
                   rgbd::DepthImage* image) {
   if (Status status = CheckImageSize(message, sizeof(float)); !status.ok()) return status;
   *image = rgbd::DepthImage(static_cast<int>(message.width), static_cast<int>(message.height));
-  const auto largest_m = static_cast<float>(largest_z_m);
-  const auto steps_per_m = static_cast<float>(1.0 / unit_m);
+  const DepthSteps steps(largest_z_m, unit_m);
   for (int v = 0; v < image->height_px; ++v) {
     const std::uint8_t* from = Row(message, v);
     std::uint16_t* to = image->Pixel(0, v);
     for (std::size_t u = 0; u < message.width; ++u) {
       float z_m = 0.0f;
       std::memcpy(&z_m, from + u * sizeof(float), sizeof(float));
-      const bool valid = z_m > 0.0f && z_m <= largest_m;  // false for NaN, too
-      to[u] = valid ? static_cast<std::uint16_t>(std::lround(z_m * steps_per_m)) : std::uint16_t{0};
+      to[u] = steps.Of(z_m);
     }
   }
   return Status::Ok();
@@ -72,10 +98,31 @@ Status FromDriverDepth(const Image& message, double unit_16bit_m, double largest
     return CopyRaw(message, image);
   }
   if (!message.is_bigendian && encoding == "32FC1") {
-    *unit_m = largest_z_m / std::numeric_limits<std::uint16_t>::max();
+    *unit_m = UnitOfMetres_m(largest_z_m);
     return CopyMetres(message, largest_z_m, *unit_m, image);
   }
   return UnknownEncoding(message, "16UC1 (mm) or 32FC1 (m)");
+}
+
+Status FromDriverDepth(const CompressedImage& message, double unit_16bit_m, double largest_z_m,
+                       rgbd::DepthImage* image, double* unit_m) {
+  rgbd::RosDepth depth;
+  const std::string cause =
+      rgbd::DecodeCompressedDepth(dds::Text(message.format), DataOf(message), &depth);
+  if (!cause.empty()) return Invalid("a packed depth image: " + cause);
+  *unit_m = depth.range_m.empty() ? unit_16bit_m : UnitOfMetres_m(largest_z_m);
+  *image = std::move(depth.steps);
+  if (depth.range_m.empty()) return Status::Ok();
+  *image = rgbd::DepthImage(depth.width_px, depth.height_px);
+  const DepthSteps steps(largest_z_m, *unit_m);
+  std::transform(depth.range_m.begin(), depth.range_m.end(), image->values.begin(),
+                 [&](float z_m) { return steps.Of(z_m); });
+  return Status::Ok();
+}
+
+Status FromDriverColor(const CompressedImage& message, rgbd::ColorImage* image) {
+  const std::string cause = rgbd::DecodeCompressedColor(DataOf(message), image);
+  return cause.empty() ? Status::Ok() : Invalid("a packed colour image: " + cause);
 }
 
 Status FromDriverColor(const Image& message, rgbd::ColorImage* image) {

@@ -7,6 +7,7 @@
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/rgbd/image.hpp"
 #include "sensor_msgs/msg/CameraInfo.hpp"
+#include "sensor_msgs/msg/CompressedImage.hpp"
 #include "sensor_msgs/msg/Image.hpp"
 
 namespace palpate::perception {
@@ -18,9 +19,14 @@ namespace palpate::perception {
 /// `largest_z_m` / 65535; 0 where z is not finite, not above 0 or beyond `largest_z_m`.
 Status FromDriverDepth(const idl::sensor_msgs::Image& message, double unit_16bit_m,
                        double largest_z_m, rgbd::DepthImage* image, double* unit_m);
+/// The same, packed by image_transport as compressedDepth.
+Status FromDriverDepth(const idl::sensor_msgs::CompressedImage& message, double unit_16bit_m,
+                       double largest_z_m, rgbd::DepthImage* image, double* unit_m);
 
 /// rgb8, bgr8, rgba8, bgra8, and mono8 as grey.
 Status FromDriverColor(const idl::sensor_msgs::Image& message, rgbd::ColorImage* image);
+/// JPEG or PNG.
+Status FromDriverColor(const idl::sensor_msgs::CompressedImage& message, rgbd::ColorImage* image);
 
 /// plumb_bob with four or five numbers, rational_polynomial whose last three are 0. `rectified`: of
 /// an image without distortion, whose intrinsics are in P. Focal lengths of 0 mean that the driver

@@ -8,7 +8,11 @@
 namespace palpate::perception {
 
 bool DriverStream::is_rectified() const {
-  return image_topic.substr(image_topic.rfind('/') + 1).starts_with("image_rect");
+  std::string image = image_topic;
+  for (const std::string transport : {"/compressedDepth", "/compressed"}) {
+    if (image.ends_with(transport)) image.resize(image.size() - transport.size());
+  }
+  return image.substr(image.rfind('/') + 1).starts_with("image_rect");
 }
 
 void DriverStream::SetInfo(const idl::sensor_msgs::CameraInfo& message) {
@@ -56,10 +60,11 @@ Status DriverCamera::AddColor(rgbd::RgbdCamera* camera) const {
   }
   const auto T_depth_color = frames_.Find(depth_.frame, color_.frame);
   if (!T_depth_color) {
-    return {StatusCode::kNoCalibration,
-            "colour is in frame '" + color_.frame + "', depth in '" + depth_.frame +
-                "', and no transforms on /tf_static join them: let the driver align depth to "
-                "colour or publish its frames, or set camera.T_depth_color"};
+    return {
+        StatusCode::kNoCalibration,
+        "colour is in frame '" + color_.frame + "', depth in '" + depth_.frame +
+            "', and no transforms on /tf_static or /tf join them: let the driver align depth to "
+            "colour or publish its frames, or set camera.T_depth_color"};
   }
   camera->T_depth_color = *T_depth_color;
   return Status::Ok();

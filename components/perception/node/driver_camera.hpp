@@ -9,6 +9,7 @@
 
 #include "libs/core/status.hpp"
 #include "libs/dds/transforms.hpp"
+#include "libs/geometry/frames.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "sensor_msgs/msg/CameraInfo.hpp"
 
@@ -22,7 +23,8 @@ struct DriverStream {
   std::optional<rgbd::CameraModel> lens;
   Status lens_status = Status::Ok();  ///< of the last camera_info
 
-  /// "/a/image_rect", "/a/image_rect_raw", "/a/image_rect_color": ROS names rectified images so.
+  /// "/a/image_rect", "/a/image_rect_raw", "/a/image_rect/compressed": ROS names rectified images
+  /// so.
   bool is_rectified() const;
   void SetInfo(const idl::sensor_msgs::CameraInfo& message);
   /// kNoCalibration where no camera_info has come or it has no intrinsics, kInvalidInput for one
@@ -42,6 +44,10 @@ class DriverCamera {
   DriverStream& color() { return color_; }
   const DriverStream& color() const { return color_; }
   Status AddTransforms(const idl::tf2_msgs::TFMessage& message) { return frames_.Add(message); }
+  /// Where the transforms have the depth camera now; nullopt: they do not join it with the robot.
+  std::optional<Eigen::Isometry3d> T_robot_depth() const {
+    return frames_.Find(std::string(geometry::kRobotFrame), depth_.frame);
+  }
 
   /// The camera of a frame with or without colour, for depth in steps of `depth_unit_m`. Colour is
   /// registered where both images have one frame, size and lens. Otherwise kNoCalibration where

@@ -3,9 +3,11 @@
 
 #include "components/perception/node/driver_streams.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "components/perception/node/convert_driver.hpp"
+#include "components/perception/node/driver_topics.hpp"
 #include "components/perception/node/image_size.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/seconds.hpp"
@@ -46,6 +48,23 @@ std::optional<Eigen::Isometry3d> GivenPose(const CameraConfig& config) {
 
 }  // namespace
 
+std::vector<std::string> WithTransports(std::vector<std::string> rules) {
+  const std::size_t given = rules.size();
+  for (std::size_t i = 0; i < given; ++i) {
+    const std::size_t sign = rules[i].find(":=");
+    const std::string from = rules[i].substr(0, sign);
+    const bool depth = from == dds::kDepthImageTopic.name;
+    if (!depth && from != dds::kColorImageTopic.name) continue;
+    const std::string transport = depth ? "/compressedDepth" : "/compressed";
+    const std::string packed = from + transport + ":=";
+    const bool known = std::any_of(rules.begin(), rules.end(), [&](const std::string& rule) {
+      return rule.starts_with(packed);
+    });
+    if (!known) rules.push_back(packed + rules[i].substr(sign + 2) + transport);
+  }
+  return rules;
+}
+
 DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
                              const CameraConfig& config, double wait_s, double largest_z_m,
                              StreamEvents events)
@@ -53,23 +72,44 @@ DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
       wait_s_(wait_s),
       largest_z_m_(largest_z_m),
       events_(std::move(events)),
-      depths_(ReaderOf(participant, dds::kDepthImageTopic, config)),
       depth_infos_(ReaderOf(participant, dds::kDepthCameraInfoTopic, config)),
       transforms_(participant.CreateReader(dds::kTfStaticTopic)),
+      moving_transforms_(participant.CreateReader(kTfTopic)),
       camera_(GivenPose(config), config.baseline_m),
       pairing_(FromSeconds(wait_s), config.pairing_tolerance_s) {
-  camera_.depth().image_topic = depths_.ros_name();
+  const bool packed = config.transport == "compressed";
+  if (packed) {
+    packed_depths_.emplace(ReaderOf(participant, kPackedDepthTopic, config));
+  } else {
+    depths_.emplace(ReaderOf(participant, dds::kDepthImageTopic, config));
+  }
+  camera_.depth().image_topic = depths().ros_name();
   camera_.depth().info_topic = depth_infos_.ros_name();
-  loop.Attach(depths_, [this] { TakeDepth(); });
+  loop.Attach(depths(), [this] { TakeDepth(); });
   loop.Attach(depth_infos_, [this] { TakeInfos(); });
   loop.Attach(transforms_, [this] { TakeInfos(); });
+  loop.Attach(moving_transforms_, [this] { TakeInfos(); });
   if (!config.use_color) return;
-  colors_.emplace(ReaderOf(participant, dds::kColorImageTopic, config));
+  if (packed) {
+    packed_colors_.emplace(ReaderOf(participant, kPackedColorTopic, config));
+  } else {
+    colors_.emplace(ReaderOf(participant, dds::kColorImageTopic, config));
+  }
   color_infos_.emplace(ReaderOf(participant, dds::kColorCameraInfoTopic, config));
-  camera_.color().image_topic = colors_->ros_name();
+  camera_.color().image_topic = colors()->ros_name();
   camera_.color().info_topic = color_infos_->ros_name();
-  loop.Attach(*colors_, [this] { TakeColor(); });
+  loop.Attach(*colors(), [this] { TakeColor(); });
   loop.Attach(*color_infos_, [this] { TakeInfos(); });
+}
+
+const dds::Endpoint& DriverStreams::depths() const {
+  if (packed_depths_) return *packed_depths_;
+  return *depths_;
+}
+
+const dds::Endpoint* DriverStreams::colors() const {
+  if (packed_colors_) return &*packed_colors_;
+  return colors_ ? &*colors_ : nullptr;
 }
 
 void DriverStreams::ExpectInputs(dds::InputMonitor& inputs) {
@@ -78,55 +118,67 @@ void DriverStreams::ExpectInputs(dds::InputMonitor& inputs) {
                   dds::InputName{.publisher = "the camera's driver (under another name: --remap)",
                                  .qos_setting = "camera.reliability"});
   };
-  expect(depths_);
+  expect(depths());
   expect(depth_infos_);
-  if (!colors_) return;
-  expect(*colors_);
+  if (colors() == nullptr) return;
+  expect(*colors());
   expect(*color_infos_);
 }
 
 void DriverStreams::TakeInfos() {
   for (const auto& message : transforms_.Take()) (void)camera_.AddTransforms(message);
+  for (const auto& message : moving_transforms_.Take()) (void)camera_.AddTransforms(message);
   for (const auto& message : depth_infos_.Take()) camera_.depth().SetInfo(message);
   if (!color_infos_) return;
   for (const auto& message : color_infos_->Take()) camera_.color().SetInfo(message);
 }
 
+template <typename Message>
+void DriverStreams::AddDepth(const Message& message) {
+  CountDepth();
+  FrameSet set;
+  set.stamp_ns = dds::StampNs(message.header.stamp);
+  if (set.stamp_ns == pairing_.last_stamp_ns()) return events_.repeated(set.stamp_ns);
+  camera_.depth().frame = dds::Text(message.header.frame_id);
+  const Status status = FromDriverDepth(message, config_.depth_unit_m, largest_z_m_,
+                                        &set.depth.emplace(), &depth_unit_m_);
+  if (!status.ok()) set.status = {status.code(), depths().ros_name() + ": " + status.message()};
+  set.facts = {counter_++, kEpoch};
+  pairing_.AddDepth(std::move(set), Clock::now());
+}
+
 void DriverStreams::TakeDepth() {
   TakeInfos();
-  for (const auto& message : depths_.Take()) {
-    CountDepth();
-    FrameSet set;
-    set.stamp_ns = dds::StampNs(message.header.stamp);
-    if (set.stamp_ns == pairing_.last_stamp_ns()) {
-      events_.repeated(set.stamp_ns);
-      continue;
-    }
-    camera_.depth().frame = dds::Text(message.header.frame_id);
-    const Status status = FromDriverDepth(message, config_.depth_unit_m, largest_z_m_,
-                                          &set.depth.emplace(), &depth_unit_m_);
-    if (!status.ok()) set.status = {status.code(), depths_.ros_name() + ": " + status.message()};
-    set.facts = {counter_++, kEpoch};
-    pairing_.AddDepth(std::move(set), Clock::now());
+  if (depths_) {
+    for (const auto& message : depths_->Take()) AddDepth(message);
+  } else {
+    for (const auto& message : packed_depths_->Take()) AddDepth(message);
   }
   events_.changed();
 }
 
+template <typename Message>
+void DriverStreams::AddColor(const Message& message) {
+  camera_.color().frame = dds::Text(message.header.frame_id);
+  rgbd::ColorImage image;
+  Status status = FromDriverColor(message, &image);
+  if (!status.ok()) status = {status.code(), colors()->ros_name() + ": " + status.message()};
+  pairing_.AddColor(dds::StampNs(message.header.stamp), std::move(image), status);
+}
+
 void DriverStreams::TakeColor() {
   TakeInfos();
-  for (const auto& message : colors_->Take()) {
-    camera_.color().frame = dds::Text(message.header.frame_id);
-    rgbd::ColorImage image;
-    Status status = FromDriverColor(message, &image);
-    if (!status.ok()) status = {status.code(), colors_->ros_name() + ": " + status.message()};
-    pairing_.AddColor(dds::StampNs(message.header.stamp), std::move(image), status);
+  if (colors_) {
+    for (const auto& message : colors_->Take()) AddColor(message);
+  } else {
+    for (const auto& message : packed_colors_->Take()) AddColor(message);
   }
   events_.changed();
 }
 
 /// Not of a camera that has no colour: nobody publishes it, and none has come before.
 bool DriverStreams::AwaitsColor() const {
-  return colors_ && (colors_->matched() > 0 || !camera_.color().frame.empty());
+  return colors() != nullptr && (colors()->matched() > 0 || !camera_.color().frame.empty());
 }
 
 /// Drivers publish the first camera_info just after its image.
@@ -150,10 +202,10 @@ Status DriverStreams::Examine(const FrameSet& set, rgbd::RgbdCamera* camera) {
   const auto tolerance_ns = pairing_.tolerance_ns();
   return {StatusCode::kStale,
           tolerance_ns
-              ? "nothing on " + colors_->ros_name() + " within " +
+              ? "nothing on " + colors()->ros_name() + " within " +
                     FormatNumber(1e-6 * static_cast<double>(*tolerance_ns)) +
                     " ms of this stamp (camera.pairing_tolerance_s)"
-              : "nothing on " + colors_->ros_name() + " within " + FormatNumber(wait_s_) + " s"};
+              : "nothing on " + colors()->ros_name() + " within " + FormatNumber(wait_s_) + " s"};
 }
 
 }  // namespace palpate::perception

@@ -5,16 +5,22 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/perception/node/camera_config.hpp"
 #include "components/perception/node/camera_streams.hpp"
 #include "components/perception/node/driver_camera.hpp"
 #include "components/perception/node/nearest_pairing.hpp"
+#include "sensor_msgs/msg/CompressedImage.hpp"
 
 namespace palpate::perception {
 
-/// The topics of a camera driver of ROS 2: depth and colour, each with its camera_info, of any
-/// stamps, reliable or best effort; and /tf_static for how the cameras stand to each other.
+/// Rules for names with those of the images also for their packed forms, as image_transport has it.
+std::vector<std::string> WithTransports(std::vector<std::string> rules);
+
+/// The topics of a camera driver of ROS 2: depth and colour, as they are or packed, each with its
+/// camera_info, of any stamps, reliable or best effort; and /tf_static and /tf for where the
+/// cameras stand.
 class DriverStreams : public CameraStreams {
  public:
   /// `wait_s`: longest wait of a depth image for colour. `largest_z_m`: of depth in metres. Throws
@@ -28,12 +34,20 @@ class DriverStreams : public CameraStreams {
   Status Examine(const FrameSet& set, rgbd::RgbdCamera* camera) override;
   std::string device() const override { return camera_.depth().frame; }
   std::string depth_frame() const override { return camera_.depth().frame; }
+  std::optional<Eigen::Isometry3d> T_robot_depth() const override {
+    return camera_.T_robot_depth();
+  }
   std::optional<double> subpixel_sigma_px() const override { return std::nullopt; }
   std::uint64_t setups() const override { return 1; }
-  const dds::Endpoint& depths() const override { return depths_; }
+  const dds::Endpoint& depths() const override;
   std::uint64_t dropped() const override { return pairing_.dropped(); }
 
  private:
+  template <typename Message>
+  void AddDepth(const Message& message);
+  template <typename Message>
+  void AddColor(const Message& message);
+  const dds::Endpoint* colors() const;  ///< nullptr: none are read
   void TakeInfos();
   void TakeDepth();
   void TakeColor();
@@ -44,11 +58,14 @@ class DriverStreams : public CameraStreams {
   double wait_s_;
   double largest_z_m_;
   StreamEvents events_;
-  dds::Reader<idl::sensor_msgs::Image> depths_;
+  std::optional<dds::Reader<idl::sensor_msgs::Image>> depths_;  ///< or packed ones
+  std::optional<dds::Reader<idl::sensor_msgs::CompressedImage>> packed_depths_;
   dds::Reader<idl::sensor_msgs::CameraInfo> depth_infos_;
-  std::optional<dds::Reader<idl::sensor_msgs::Image>> colors_;  ///< with use_color
+  std::optional<dds::Reader<idl::sensor_msgs::Image>> colors_;  ///< with use_color, or packed ones
+  std::optional<dds::Reader<idl::sensor_msgs::CompressedImage>> packed_colors_;
   std::optional<dds::Reader<idl::sensor_msgs::CameraInfo>> color_infos_;
   dds::Reader<idl::tf2_msgs::TFMessage> transforms_;
+  dds::Reader<idl::tf2_msgs::TFMessage> moving_transforms_;
   DriverCamera camera_;
   NearestPairing pairing_;
   double depth_unit_m_ = 0.0;  ///< of the last depth image

@@ -13,12 +13,19 @@
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::perception {
 
 namespace {
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+
+dds::NodeSettings NamesOf(const NodeConfig& config) {
+  dds::NodeSettings settings = config.dds;
+  settings.remap = WithTransports(settings.remap);
+  return settings;
+}
 
 }  // namespace
 
@@ -28,7 +35,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
                                dds::NodeLog::ProcessLog process_log)
     : config_{config},
       pose_{std::move(T_robot_camera)},
-      participant_{dds::ParticipantOf(config.dds, "palpate_perception", domain_id),
+      participant_{dds::ParticipantOf(NamesOf(config), "palpate_perception", domain_id),
                    std::move(table)},
       loop_{participant_},
       overdue_{loop_.AddAlarm([this] { Advance(); })},
@@ -107,7 +114,7 @@ void PerceptionNode::AdoptCalibration() {
 /// For the tools of ROS 2. One that is not taken is sent again with the next calibration. The
 /// frames of a driver have a parent already, so that the robot's is below them.
 void PerceptionNode::SendPose() {
-  if (!pose_.T_robot_camera()) return;
+  if (!pose_.T_robot_camera() || pose_.is_of_frames()) return;
   const std::int64_t now_ns = participant_.Now_ns();
   const std::string frame = streams_->depth_frame();
   if (config_.camera.source == "capture") {
@@ -176,7 +183,8 @@ bool PerceptionNode::BeginsSequence(const FrameSet& set) const {
 
 void PerceptionNode::Work(FrameSet set) {
   rgbd::RgbdCamera camera;
-  const Status status = streams_->Examine(set, &camera);
+  Status status = streams_->Examine(set, &camera);
+  if (status.ok()) status = FollowFrames();
   if (status.ok()) {
     worker_.Start(MakeJob(set, camera));
     return;
@@ -187,6 +195,19 @@ void PerceptionNode::Work(FrameSet set) {
   refused.outcome.observation.stamp_ns = set.stamp_ns;
   refused.outcome.observation.frame.status = status;
   Publish(refused.outcome, set.taken);
+}
+
+Status PerceptionNode::FollowFrames() {
+  const auto T_robot_camera = streams_->T_robot_depth();
+  if (!T_robot_camera) return Status::Ok();
+  const bool known = pose_.T_robot_camera().has_value();
+  Status status = pose_.FollowFrames(*T_robot_camera, streams_->depth_frame());
+  if (!known) {
+    log_.Write(Severity::kInfo, "camera pose of /tf and /tf_static, from 'robot' to '" +
+                                    streams_->depth_frame() +
+                                    "': " + geometry::FormatPose(*T_robot_camera));
+  }
+  return status;
 }
 
 PerceptionJob PerceptionNode::HeadOf(const FrameSet& set) const {

@@ -56,6 +56,7 @@ class PerceptionNode {
   Clock::time_point PredictionOverdue() const;
   bool MustAwaitPrediction() const;
   void Work(FrameSet set);
+  Status FollowFrames();
   PerceptionJob HeadOf(const FrameSet& set) const;
   PerceptionJob MakeJob(FrameSet& set, const rgbd::RgbdCamera& camera);
   void PublishResults();

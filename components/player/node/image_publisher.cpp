@@ -33,7 +33,7 @@ bool ImagePublisher::Publish(const ImageSet& images, std::int64_t stamp_ns) {
   bool sent = true;
   if (images.sequence != last_.sequence || images.index < last_.index) {
     ++identity_.epoch;
-    sent = camera_.PublishCamera(camera, identity_, stamp_ns);
+    sent = camera_.PublishCamera(camera, identity_, stamp_ns, images.T_robot_camera);
   }
   const bool again = images.sequence == last_.sequence && images.index == last_.index;
   if (!again) images.sequence->Read(images.index, &frame_);

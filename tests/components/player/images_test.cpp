@@ -13,6 +13,7 @@
 #include "components/player/node/node.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/dds/stamp.hpp"
+#include "libs/dds/transforms.hpp"
 #include "libs/rgbd/png.hpp"
 #include "tests/libs/dds/test_participant.hpp"
 #include "tests/support/test_folder.hpp"
@@ -184,6 +185,27 @@ TEST_F(PlayedImages, InStepsEachFrameWaitsForItsAnswerAndEachRecordingIsAnEpoch)
   player.Stop();
   thread.join();
   EXPECT_THAT(chain.frames(), ElementsAre("1:0", "1:1", "1:1", "2:10", "2:11"));
+}
+
+TEST_F(PlayedImages, PutTheCameraBelowTheRobotWhereTheExperimentSaysSo) {
+  folder_.Write("exp/experiment.yaml",
+                "robot: none.yaml\nframe: camera\nT_robot_camera: {translation_m: [0, 0.2, 0.5], "
+                "rotation_xyzw: {x: 0, y: 0, z: 0, w: 1}}\n");
+  FakeChain chain;
+  auto transforms = chain.node().participant.CreateReader(dds::kTfStaticTopic);
+  dds::TransformTree tree;
+  chain.node().loop.Attach(transforms, [&] {
+    for (const auto& message : transforms.Take()) EXPECT_TRUE(tree.Add(message).ok());
+  });
+  PlayerNode player({}, {.step = true}, Player("a"), static_cast<int>(dds::TestDomain()),
+                    dds::BuiltInTable(), {});
+  std::thread thread([&] { player.Run(); });
+  EXPECT_TRUE(chain.node().WaitFor([&] {
+    const auto T_robot_camera = tree.Find("robot", "camera_depth_optical_frame");
+    return T_robot_camera && T_robot_camera->translation() == Eigen::Vector3d(0, 0.2, 0.5);
+  }));
+  player.Stop();
+  thread.join();
 }
 
 }  // namespace

@@ -13,7 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "libs/core/file.hpp"
 #include "libs/dds/message.hpp"
+#include "libs/rgbd/png.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::perception {
 namespace {
@@ -148,6 +151,74 @@ TEST(DriverInfo, OtherLensesAreRefusedWithTheRemedy) {
   EXPECT_EQ(FromDriverInfo(*rational, false, &camera).code(), StatusCode::kInvalidInput);
   const auto nan = InfoOf("plumb_bob", {std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0});
   EXPECT_EQ(FromDriverInfo(*nan, false, &camera).code(), StatusCode::kInvalidInput);
+}
+
+/// A message of image_transport: `header` in front of a PNG.
+dds::Message<idl::sensor_msgs::CompressedImage> PackedOf(const std::string& format,
+                                                         const std::string& data) {
+  dds::Message<idl::sensor_msgs::CompressedImage> message;
+  dds::SetText(message->format, format);
+  dds::Resize(message->data, data.size());
+  std::memcpy(message->data._buffer, data.data(), data.size());
+  return message;
+}
+
+/// Format, and the two parameters of packed metres.
+std::string DepthHeader(float a, float b) {
+  std::string header(12, '\0');
+  std::memcpy(header.data() + 4, &a, sizeof(a));
+  std::memcpy(header.data() + 8, &b, sizeof(b));
+  return header;
+}
+
+std::string DepthPng() {
+  const test_support::TestFolder folder;
+  rgbd::DepthImage image(2, 2);
+  image.values = {1000, 0, 2000, 500};
+  rgbd::WriteDepthPng(folder / "depth.png", image);
+  return ReadFile(folder / "depth.png");
+}
+
+TEST(PackedDepth, StepsAreTakenAsTheyAre) {
+  rgbd::DepthImage image;
+  double unit_m = 0.0;
+  const auto message = PackedOf("16UC1; compressedDepth png", DepthHeader(0, 0) + DepthPng());
+  ASSERT_TRUE(FromDriverDepth(*message, 1e-3, 2.0, &image, &unit_m).ok());
+  EXPECT_EQ(unit_m, 1e-3);
+  EXPECT_THAT(image.values, ElementsAre(1000, 0, 2000, 500));
+}
+
+TEST(PackedDepth, MetresAreThoseOfItsHeader) {
+  rgbd::DepthImage image;
+  double unit_m = 0.0;
+  const auto message = PackedOf("32FC1; compressedDepth png", DepthHeader(1000, 0) + DepthPng());
+  ASSERT_TRUE(FromDriverDepth(*message, 1e-3, 1.5, &image, &unit_m).ok());
+  EXPECT_NEAR(image.values[0] * unit_m, 1.0, unit_m);
+  EXPECT_EQ(image.values[1], 0);
+  EXPECT_NEAR(image.values[2] * unit_m, 0.5, unit_m);
+  EXPECT_EQ(image.values[3], 0) << "2 m are beyond the range";
+}
+
+TEST(PackedDepth, WhatCannotBeReadIsNamed) {
+  rgbd::DepthImage image;
+  double unit_m = 0.0;
+  const Status damaged =
+      FromDriverDepth(*PackedOf("16UC1; compressedDepth", "short"), 1e-3, 2.0, &image, &unit_m);
+  EXPECT_EQ(damaged.code(), StatusCode::kInvalidInput);
+  EXPECT_THAT(damaged.message(), HasSubstr("is no whole image"));
+  const auto rvl = PackedOf("16UC1; compressedDepth rvl", std::string(20, '\0'));
+  EXPECT_THAT(FromDriverDepth(*rvl, 1e-3, 2.0, &image, &unit_m).message(), HasSubstr("RVL"));
+}
+
+TEST(PackedColor, APngIsRedGreenBlue) {
+  rgbd::ColorImage orange(1, 1);
+  orange.values = {200, 120, 40};
+  rgbd::ColorImage image;
+  const auto message = PackedOf("rgb8; png compressed", rgbd::EncodeColorPng(orange, 1));
+  ASSERT_TRUE(FromDriverColor(*message, &image).ok());
+  EXPECT_THAT(image.values, ElementsAre(200, 120, 40));
+  EXPECT_EQ(FromDriverColor(*PackedOf("jpeg", "no image"), &image).code(),
+            StatusCode::kInvalidInput);
 }
 
 }  // namespace

@@ -119,11 +119,13 @@ TEST(DriverCamera, ALensThatCannotBeUsedIsRefusedWithItsTopic) {
 
 TEST(DriverCamera, RectifiedImagesAreKnownByTheirNames) {
   DriverStream stream;
-  for (const char* rectified : {"/a/image_rect", "/a/image_rect_raw", "/a/b/image_rect_color"}) {
+  for (const char* rectified : {"/a/image_rect", "/a/image_rect_raw", "/a/b/image_rect_color",
+                                "/a/image_rect/compressed", "/a/image_rect_raw/compressedDepth"}) {
     stream.image_topic = rectified;
     EXPECT_TRUE(stream.is_rectified()) << rectified;
   }
-  for (const char* raw : {"/a/image_raw", "/image_rect/image_raw", "/image"}) {
+  for (const char* raw :
+       {"/a/image_raw", "/image_rect/image_raw", "/image", "/image_rect/image_raw/compressed"}) {
     stream.image_topic = raw;
     EXPECT_FALSE(stream.is_rectified()) << raw;
   }

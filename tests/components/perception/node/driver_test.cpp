@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -13,9 +15,13 @@
 #include <thread>
 #include <vector>
 
+#include "components/perception/node/driver_topics.hpp"
 #include "components/perception/node/node.hpp"
+#include "libs/core/file.hpp"
+#include "libs/rgbd/png.hpp"
 #include "tests/components/perception/node/driver_fixture.hpp"
 #include "tests/components/perception/node/scripted_perception.hpp"
+#include "tests/support/test_folder.hpp"
 
 /// palpate-perception with the streams of a camera driver of ROS 2.
 namespace palpate::perception {
@@ -34,6 +40,63 @@ NodeConfig DriverConfig() {
   config.pairing_wait_s = 1.0;
   return config;
 }
+
+/// Plays the driver of a camera whose images image_transport packs.
+class PackedDriver {
+ public:
+  PackedDriver()
+      : node_("packed_camera"),
+        depths_(Packed("/camera/camera/depth/image_rect_raw/compressedDepth")),
+        colors_(Packed("/camera/camera/color/image_raw/compressed")),
+        info_topics_{Info("/camera/camera/depth/camera_info"),
+                     Info("/camera/camera/color/camera_info")} {}
+
+  bool IsRead() const {
+    return depths_.matched() == 1 && colors_.matched() == 1 && info_topics_[0].matched() == 1 &&
+           info_topics_[1].matched() == 1;
+  }
+  void Send(std::int64_t stamp_ns, std::uint16_t depth, std::uint8_t color) {
+    const test_support::TestFolder folder;
+    rgbd::WriteDepthPng(folder / "depth.png",
+                        rgbd::DepthImage(kDriverWidth_px, kDriverHeight_px, depth));
+    Write(&depths_, stamp_ns, "16UC1; compressedDepth png",
+          std::string(12, '\0') + ReadFile(folder / "depth.png"));
+    Write(&colors_, stamp_ns, "rgb8; png compressed",
+          rgbd::EncodeColorPng(rgbd::ColorImage(kDriverWidth_px, kDriverHeight_px, color), 1));
+    for (auto& infos : info_topics_) {
+      EXPECT_TRUE(infos.Write(DriverInfo(5.0, stamp_ns, FakeDriver::kDepthFrame)));
+    }
+  }
+
+ private:
+  using CompressedImage = idl::sensor_msgs::CompressedImage;
+
+  static dds::TopicSettings SettingsOf(std::string_view name) {
+    dds::TopicSettings settings = dds::BuiltInTable().At(name);
+    settings.durability = dds::Durability::kVolatile;
+    return settings;
+  }
+  dds::Writer<CompressedImage> Packed(const std::string& name) {
+    return {node_.participant.handle(), SettingsOf(kPackedDepthTopic.name), name, {}};
+  }
+  dds::Writer<idl::sensor_msgs::CameraInfo> Info(const std::string& name) {
+    return {node_.participant.handle(), SettingsOf(dds::kDepthCameraInfoTopic.name), name, {}};
+  }
+  static void Write(dds::Writer<CompressedImage>* writer, std::int64_t stamp_ns,
+                    const std::string& format, const std::string& data) {
+    dds::Message<CompressedImage> message;
+    dds::SetHeader(message->header, stamp_ns, FakeDriver::kDepthFrame);
+    dds::SetText(message->format, format);
+    dds::Resize(message->data, data.size());
+    std::copy(data.begin(), data.end(), message->data._buffer);
+    EXPECT_TRUE(writer->Write(message));
+  }
+
+  dds::TestNode node_;
+  dds::Writer<CompressedImage> depths_;
+  dds::Writer<CompressedImage> colors_;
+  std::array<dds::Writer<idl::sensor_msgs::CameraInfo>, 2> info_topics_;
+};
 
 /// The node in a thread of its own, a driver, and a reader of reports.
 class DriverNodeTest : public testing::Test {
@@ -59,20 +122,21 @@ class DriverNodeTest : public testing::Test {
     thread_.join();
   }
 
-  void StartNode(const NodeConfig& config) {
+  void StartNode(const NodeConfig& config, bool with_pose = true) {
     const auto log = [this](Severity, std::string_view line) {
       const std::lock_guard lock(mutex_);
       lines_.emplace_back(line);
     };
-    const Eigen::Isometry3d T_robot_camera(Eigen::Translation3d(0.0, 0.0, 0.5));
+    std::optional<Eigen::Isometry3d> T_robot_camera;
+    if (with_pose) T_robot_camera = Eigen::Translation3d(0.0, 0.0, 0.5);
     node_ = std::make_unique<PerceptionNode>(config, T_robot_camera, script_.Maker(),
                                              static_cast<int>(dds::TestDomain()),
                                              dds::BuiltInTable(), log);
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] { return reports_.matched() == 1; }));
   }
-  void StartWithDriver(const NodeConfig& config = DriverConfig()) {
-    StartNode(config);
+  void StartWithDriver(const NodeConfig& config = DriverConfig(), bool with_pose = true) {
+    StartNode(config, with_pose);
     driver_.emplace();
     ASSERT_TRUE(test_.WaitFor([this] { return driver_->IsRead(); }));
   }
@@ -143,6 +207,55 @@ TEST_F(DriverNodeTest, ColourOfItsOwnCameraStandsWhereTfStaticSays) {
     EXPECT_THAT(answers_[k * kPeriod_ns].reason, HasSubstr("/tf_static"));
   }
   EXPECT_EQ(script_.camera().T_depth_color.translation().x(), 0.015);
+}
+
+TEST_F(DriverNodeTest, PackedImagesMakeAFrameUnderTheNamesOfTheDriver) {
+  NodeConfig config = DriverConfig();
+  config.camera.transport = "compressed";
+  StartNode(config);
+  PackedDriver driver;
+  ASSERT_TRUE(test_.WaitFor([&] { return driver.IsRead(); }));
+  driver.Send(100 * kMs, 400, 9);
+  ASSERT_TRUE(IsAnswered(100 * kMs));
+  EXPECT_EQ(answers_[100 * kMs].status, "ok") << answers_[100 * kMs].reason;
+  EXPECT_EQ(script_.calls().at(0).depth_value, 400);
+  EXPECT_EQ(script_.calls().at(0).color_value, 9);
+}
+
+TEST_F(DriverNodeTest, ACameraThatMovesOnTfIsRefused) {
+  StartWithDriver(DriverConfig(), false);
+  auto moving = test_.participant.CreateWriter(kTfTopic);
+  ASSERT_TRUE(test_.WaitFor([&] { return moving.matched() == 1; }));
+  const auto send = [&](double z_m) {
+    dds::Message<idl::tf2_msgs::TFMessage> message;
+    dds::Resize(message->transforms, 1);
+    auto& transform = message->transforms._buffer[0];
+    dds::SetHeader(transform.header, 0, "robot");
+    dds::SetText(transform.child_frame_id, FakeDriver::kDepthFrame);
+    transform.transform.translation.z = z_m;
+    transform.transform.rotation.w = 1.0;
+    EXPECT_TRUE(moving.Write(message));
+    EXPECT_TRUE(moving.WaitUntilReceived(std::chrono::seconds(5)));
+  };
+  send(0.5);
+  SendDepth(1 * kPeriod_ns);
+  SendColor(1 * kPeriod_ns);
+  ASSERT_TRUE(IsAnswered(1 * kPeriod_ns));
+  EXPECT_EQ(answers_[1 * kPeriod_ns].status, "ok") << answers_[1 * kPeriod_ns].reason;
+  EXPECT_TRUE(Logs("camera pose of /tf and /tf_static, from 'robot' to"));
+  send(0.5 + 1e-5);  // a joint that is held
+  SendDepth(2 * kPeriod_ns);
+  SendColor(2 * kPeriod_ns);
+  ASSERT_TRUE(IsAnswered(2 * kPeriod_ns));
+  EXPECT_EQ(answers_[2 * kPeriod_ns].status, "ok") << answers_[2 * kPeriod_ns].reason;
+  send(0.6);
+  SendDepth(3 * kPeriod_ns);
+  SendColor(3 * kPeriod_ns);
+  ASSERT_TRUE(IsAnswered(3 * kPeriod_ns));
+  EXPECT_EQ(answers_[3 * kPeriod_ns].status, "invalid_input");
+  EXPECT_THAT(
+      answers_[3 * kPeriod_ns].reason,
+      HasSubstr("moves against 'robot' on /tf: a camera on a moving mount is not supported"));
 }
 
 TEST_F(DriverNodeTest, UnderJitterAndLossEachFrameHasTheNearestColour) {
