@@ -46,8 +46,7 @@ DepthBias::DepthBias(int feature_count, const ShapeConfig& config, const DepthBi
     : feature_count_(feature_count),
       config_(config),
       tuning_(tuning),
-      correlation_(tuning.prior_correlation),
-      series_(static_cast<size_t>(feature_count)) {
+      correlation_(tuning.prior_correlation) {
   basis_.order = config.depth_bias_order;
   SetPrior();
 }
@@ -66,8 +65,6 @@ void DepthBias::SetPrior() {
 
 void DepthBias::Reset() {
   const Eigen::Index parameters = shared_count_ + feature_count_;
-  information_.setZero(parameters, parameters);
-  right_side_.setZero(parameters);
   solution_.setZero(parameters);
   covariance_.setIdentity(parameters, parameters);
 }
@@ -91,7 +88,7 @@ void DepthBias::StartFrom(const geometry::DepthBiasMap& map,
   prior_mean_.tail(count) = map.coefficients;
   prior_root_ = RootOf(per_error * map.covariance * per_error.transpose());
   Reset();
-  known_ = true;
+  known_ = is_calibrated_ = true;
 }
 
 Eigen::VectorXd DepthBias::SharedBasis(const correspondence::FeatureMatch& match,
@@ -121,30 +118,29 @@ double DepthBias::PriorResidual_m(const correspondence::FeatureMatch& match,
 }
 
 void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
-                      const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_robot_camera) {
+                      const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_robot_camera,
+                      std::uint32_t sequence) {
   PALPATE_CHECK(static_cast<int>(matches.size()) == feature_count_, matches.size());
   const auto matched = [](const auto& match) {
     return match.state == correspondence::MatchState::kMatched;
   };
   if (std::none_of(matches.begin(), matches.end(), matched)) return;
-  ++frames_;
-  for (int feature = 0; feature < feature_count_; ++feature) {
-    const correspondence::FeatureMatch& match = matches[At(feature)];
+  if (++frames_ == 1) first_x_m_ = x_m;
+  if (frames_ == 1 || sequence != last_sequence_) sequences_.emplace_back(matches.size());
+  last_sequence_ = sequence;
+  for (std::size_t feature = 0; feature < matches.size(); ++feature) {
+    const correspondence::FeatureMatch& match = matches[feature];
     if (!matched(match)) continue;
-    const Eigen::VectorXd basis = SharedBasis(match, T_robot_camera);
-    const double residual_over_sigma =
-        (match.target_m - match.row.Value(x_m) - basis.dot(prior_mean_)) / match.sigma_m;
-    PALPATE_CHECK(match.sigma_m > 0.0 && std::isfinite(residual_over_sigma), match.sigma_m);
-    const Eigen::VectorXd shared = prior_root_.transpose() * basis / match.sigma_m;
-    const double own = config_.feature_offset_prior_m / match.sigma_m;
-    const Eigen::Index at = shared_count_ + feature;
-    information_.topLeftCorner(shared_count_, shared_count_) += shared * shared.transpose();
-    information_.col(at).head(shared_count_) += own * shared;
-    information_.row(at).head(shared_count_) += own * shared.transpose();
-    information_(at, at) += own * own;
-    right_side_.head(shared_count_) += residual_over_sigma * shared;
-    right_side_[at] += residual_over_sigma * own;
-    AddToSeries(feature, residual_over_sigma);
+    const double residual_m = PriorResidual_m(match, x_m, T_robot_camera);
+    PALPATE_CHECK(match.sigma_m > 0.0 && std::isfinite(residual_m), match.sigma_m);
+    const double weight = 1.0 / (match.sigma_m * match.sigma_m);
+    Series& series = sequences_.back()[feature];
+    if (series.count == 0) series.weighted_basis.setZero(shared_count_);
+    AddToSeries(residual_m / match.sigma_m, frames_, &series);
+    series.weight += weight;
+    series.weighted_residual += weight * residual_m;
+    series.weighted_motion += weight * (match.row.Value(x_m) - match.row.Value(first_x_m_));
+    series.weighted_basis += weight * ScaledBasis(match, T_robot_camera);
   }
 }
 
@@ -155,32 +151,33 @@ void DepthBias::SetShared(const Eigen::VectorXd& shared) {
   solution_.head(shared_count_) = shared;
 }
 
-void DepthBias::AddToSeries(int feature, double residual_over_sigma) {
-  Series& series = series_[At(feature)];
-  if (series.count > 0 && series.last_frame == frames_ - 1) {
-    ++series.neighbours;
-    series.sum_products += residual_over_sigma * series.last;
+void DepthBias::AddToSeries(double residual_over_sigma, int frame, Series* series) {
+  if (series->count > 0 && series->last_frame == frame - 1) {
+    ++series->neighbours;
+    series->sum_products += residual_over_sigma * series->last;
   }
-  ++series.count;
-  series.sum += residual_over_sigma;
-  series.sum_squares += residual_over_sigma * residual_over_sigma;
-  series.last_frame = frames_;
-  series.last = residual_over_sigma;
+  ++series->count;
+  series->sum += residual_over_sigma;
+  series->sum_squares += residual_over_sigma * residual_over_sigma;
+  series->last_frame = frame;
+  series->last = residual_over_sigma;
 }
 
-/// Scatter and correlation about each surface point's own mean.
+/// Scatter and correlation about each surface point's own mean in each sequence.
 void DepthBias::LearnNoise() {
   double squares = 0.0;
   double products = 0.0;
   double pairs_per_value = 0.0;
   int values = 0;
-  for (const Series& series : series_) {
-    if (series.count < 2) continue;
-    const double mean = series.sum / series.count;
-    squares += series.sum_squares - series.count * mean * mean;
-    products += series.sum_products - series.neighbours * mean * mean;
-    pairs_per_value += series.neighbours;
-    values += series.count;
+  for (const Sequence& sequence : sequences_) {
+    for (const Series& series : sequence) {
+      if (series.count < 2) continue;
+      const double mean = series.sum / series.count;
+      squares += series.sum_squares - series.count * mean * mean;
+      products += series.sum_products - series.neighbours * mean * mean;
+      pairs_per_value += series.neighbours;
+      values += series.count;
+    }
   }
   if (values > 0) pairs_per_value /= values;
   correlation_ =
@@ -188,31 +185,107 @@ void DepthBias::LearnNoise() {
                      (std::max(pairs_per_value, 1e-3) * squares + tuning_.prior_residuals),
                  0.0, 0.9);
   double freedom = 0.0;
-  for (const Series& series : series_) {
-    if (series.count >= 2) freedom += series.count - MeanInflation(series.count, correlation_);
+  for (const Sequence& sequence : sequences_) {
+    for (const Series& series : sequence) {
+      if (series.count >= 2) freedom += series.count - MeanInflation(series.count, correlation_);
+    }
   }
   noise_scale_ =
       std::sqrt((squares + tuning_.prior_residuals) / (freedom + tuning_.prior_residuals));
 }
 
+/// Of the mean of a sequence.
+double DepthBias::VarianceOf_m2(const Series& series, double posture_m) const {
+  const double model_m = config_.model_relative_sigma * series.weighted_motion / series.weight;
+  return noise_scale_ * noise_scale_ * MeanInflation(series.count, correlation_) / series.weight +
+         posture_m * posture_m + model_m * model_m;
+}
+
 Status DepthBias::Finish() {
-  const auto seen = std::count_if(series_.begin(), series_.end(),
-                                  [](const Series& series) { return series.count > 0; });
+  std::vector<bool> is_seen(static_cast<std::size_t>(feature_count_));
+  for (const Sequence& sequence : sequences_) {
+    for (std::size_t f = 0; f < sequence.size(); ++f) {
+      is_seen[f] = is_seen[f] || sequence[f].count > 0;
+    }
+  }
+  const auto seen = std::count(is_seen.begin(), is_seen.end(), true);
   if (seen < tuning_.fewest_features && !known_) {
     return {StatusCode::kNoCalibration, "depth bias: only " + std::to_string(seen) +
                                             " features seen in " + std::to_string(frames_) +
                                             " frames without contact"};
   }
   LearnNoise();
-  const double worth = 1.0 / (noise_scale_ * noise_scale_ * MeanInflation(frames_, correlation_));
-  const Eigen::Index parameters = information_.rows();
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(parameters, parameters);
-  const linalg::Cholesky factor(identity + worth * information_);
+  posture_m_ = PostureError_m();
+  Equations equations = EquationsOf(posture_m_);
+  if (is_calibrated_ && frames_ > 0) {
+    // Covariance intersection (Julier and Uhlmann, Proc. ACC (1997) 2369): half of the prior's
+    // information and half of the frames'. The offsets' own prior has nothing in common with both.
+    equations.information *= 0.5;
+    equations.information.diagonal().tail(feature_count_).array() += 0.5;
+    equations.right_side *= 0.5;
+  }
+  const linalg::Cholesky factor(equations.information);
   covariance_ = factor.Inverse();
-  solution_ = factor.Solve(Eigen::VectorXd(worth * right_side_));
+  solution_ = factor.Solve(equations.right_side);
   known_ = true;
   shared_is_given_ = false;
   return Status::Ok();
+}
+
+/// One sequence does not tell it from the offsets.
+double DepthBias::PostureError_m() const {
+  if (sequences_.size() < 2) return 0.0;
+  const double prior_m = tuning_.posture_share * config_.feature_offset_prior_m;
+  std::vector<double> squares_m2, logs;
+  for (int k = 0; k <= tuning_.posture_errors; ++k) {
+    const double sigmas = 4.0 * k / tuning_.posture_errors;
+    const double posture_m = sigmas * prior_m;
+    squares_m2.push_back(posture_m * posture_m);
+    logs.push_back(LogLikelihood(EquationsOf(posture_m)) - 0.5 * sigmas * sigmas);
+  }
+  const double most = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0, sum_m2 = 0.0;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    const double weight = std::exp(logs[k] - most);
+    sum += weight;
+    sum_m2 += weight * squares_m2[k];
+  }
+  return std::sqrt(sum_m2 / sum);
+}
+
+/// Marginal, but for a constant.
+double DepthBias::LogLikelihood(const Equations& equations) {
+  const linalg::Cholesky factor(equations.information);
+  return 0.5 * (equations.rows + equations.right_side.dot(factor.Solve(equations.right_side)) -
+                factor.LnDeterminant());
+}
+
+/// Parameters: the shared ones, then the offset of each surface point, all of prior sigma 1.
+DepthBias::Equations DepthBias::EquationsOf(double posture_m) const {
+  const Eigen::Index parameters = shared_count_ + feature_count_;
+  const double own_m = config_.feature_offset_prior_m;
+  Equations equations{.information = Eigen::MatrixXd::Identity(parameters, parameters),
+                      .right_side = Eigen::VectorXd::Zero(parameters)};
+  for (const Sequence& sequence : sequences_) {
+    for (std::size_t f = 0; f < sequence.size(); ++f) {
+      const Series& series = sequence[f];
+      if (series.count == 0) continue;
+      const double worth = 1.0 / VarianceOf_m2(series, posture_m);
+      const Eigen::VectorXd shared = series.weighted_basis / series.weight;
+      const double residual_m = series.weighted_residual / series.weight;
+      const Eigen::Index at = shared_count_ + ToIndex(f);
+      Eigen::MatrixXd& information = equations.information;
+      information.topLeftCorner(shared_count_, shared_count_) +=
+          worth * shared * shared.transpose();
+      information.col(at).head(shared_count_) += worth * own_m * shared;
+      information.row(at).head(shared_count_) += worth * own_m * shared.transpose();
+      information(at, at) += worth * own_m * own_m;
+      equations.right_side.head(shared_count_) += worth * residual_m * shared;
+      equations.right_side[at] += worth * residual_m * own_m;
+      equations.rows += std::log(worth) - worth * residual_m * residual_m;
+    }
+  }
+  return equations;
 }
 
 double DepthBias::Correction_m(int feature, const correspondence::FeatureMatch& match,
@@ -232,7 +305,7 @@ double DepthBias::CorrectionSigma_m(int feature, const correspondence::FeatureMa
       shared.dot(covariance_.topLeftCorner(shared_count_, shared_count_) * shared) +
       2.0 * own * shared.dot(covariance_.col(at).head(shared_count_)) +
       own * own * covariance_(at, at);
-  return std::sqrt(std::max(variance_m2, 0.0));
+  return std::sqrt(std::max(variance_m2, 0.0) + posture_m_ * posture_m_);
 }
 
 }  // namespace palpate::force_estimation

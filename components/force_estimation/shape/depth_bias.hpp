@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "components/force_estimation/shape/shape_config.hpp"
@@ -23,6 +24,11 @@ struct DepthBiasTuning {
   /// Weight of the prior of noise and correlation, in residuals. Larger: the noise model is trusted
   /// for longer; smaller: few frames give a random noise scale.
   double prior_residuals = 10.0;
+  /// Prior sigma (half-normal) of the error of a surface point's offset in a single posture, over
+  /// that of the offset, and the values of it that are compared, up to four prior sigmas. Larger:
+  /// few postures that agree say less; smaller: few that disagree are trusted.
+  double posture_share = 0.3;
+  int posture_errors = 20;
 };
 
 /// Constant difference of cloud and model without contact: a depth bias of low order over the image
@@ -32,10 +38,16 @@ struct DepthBiasTuning {
 /// bias: their sum is known better than either.
 ///
 /// Where a calibration has estimated the map together with the camera pose, both and their joint
-/// covariance are the prior.
+/// covariance are the prior. It may come from the very frames that are learnt: prior and frames are
+/// joined by covariance intersection with equal shares, which holds whatever they have in common.
 ///
-/// Scatter and correlation over time of the frames about each surface point's own mean give the
-/// information of a frame. Correlation is that of a first-order process.
+/// Frames come in sequences, one posture each. The bias belongs to the shape of the first frame. Of
+/// other shapes the model errs by a share of the motion since then. What the sequences disagree by
+/// beyond that and noise is an error of each posture, of those to come as well. Its variance is the
+/// posterior mean, by the marginal likelihood.
+///
+/// Scatter and correlation over time of a sequence's frames about each surface point's own mean
+/// give the information of a frame. Correlation is that of a first-order process.
 class DepthBias {
  public:
   DepthBias(int feature_count, const ShapeConfig& config, const DepthBiasTuning& tuning = {});
@@ -45,9 +57,10 @@ class DepthBias {
   void StartFrom(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
 
   /// Matches of one contact-free frame, found about an equilibrium `x_m` [3n] of the model. Frames
-  /// in the order of time; those without a match do not count.
+  /// in the order of time; those without a match do not count. Another `sequence` than that of the
+  /// frame before begins a sequence.
   void Learn(const std::vector<correspondence::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
-             const Eigen::Isometry3d& T_robot_camera);
+             const Eigen::Isometry3d& T_robot_camera, std::uint32_t sequence = 0);
   /// Solves for the parameters; more frames and another call improve them. kNoCalibration where too
   /// few surface points were seen and no calibration gave the map.
   Status Finish();
@@ -81,7 +94,8 @@ class DepthBias {
   double NoiseScale() const { return noise_scale_; }
 
  private:
-  /// Residuals of one feature over the frames, each over its sigma_m.
+  /// One feature over the frames of a sequence. Sums of residuals, each over its sigma_m; sums over
+  /// the frames' variances, for means that weigh by them.
   struct Series {
     int count = 0;
     double sum = 0.0;
@@ -90,6 +104,17 @@ class DepthBias {
     double sum_products = 0.0;
     int last_frame = 0;
     double last = 0.0;
+    double weight = 0.0;
+    double weighted_residual = 0.0;
+    double weighted_motion = 0.0;    ///< since the first frame
+    Eigen::VectorXd weighted_basis;  ///< [shared] of the scaled parameters
+  };
+  using Sequence = std::vector<Series>;  ///< [features]
+  /// Normal equations of the parameters, with what the likelihood takes of the rows alone.
+  struct Equations {
+    Eigen::MatrixXd information;  ///< [p x p]
+    Eigen::VectorXd right_side;   ///< [p]
+    double rows = 0.0;
   };
 
   /// Derivative of a match's residual to each parameter that the points share: camera
@@ -99,8 +124,12 @@ class DepthBias {
                               const Eigen::Isometry3d& T_robot_camera) const;
   void SetPrior();
   void Reset();
-  void AddToSeries(int feature, double residual_over_sigma);
+  static void AddToSeries(double residual_over_sigma, int frame, Series* series);
   void LearnNoise();
+  double VarianceOf_m2(const Series& series, double posture_m) const;
+  double PostureError_m() const;
+  Equations EquationsOf(double posture_m) const;
+  static double LogLikelihood(const Equations& equations);
 
   int feature_count_;
   ShapeConfig config_;
@@ -111,14 +140,16 @@ class DepthBias {
   Eigen::MatrixXd prior_root_;  ///< [shared square] L of the prior's covariance L L'
   int frames_ = 0;
   bool known_ = false;
+  bool is_calibrated_ = false;  ///< the prior is a calibration's
   bool shared_is_given_ = false;
   double noise_scale_ = 1.0;
-  double correlation_;  ///< of a frame with the next
-  std::vector<Series> series_;
-  Eigen::MatrixXd information_;  ///< [p x p] of the frames alone; p = shared + features
-  Eigen::VectorXd right_side_;   ///< [p]
-  Eigen::VectorXd solution_;     ///< [p]
-  Eigen::MatrixXd covariance_;   ///< [p x p]
+  double posture_m_ = 0.0;  ///< error of an offset in a single posture, one sigma
+  double correlation_;      ///< of a frame with the next
+  std::vector<Sequence> sequences_;
+  std::uint32_t last_sequence_ = 0;
+  Eigen::VectorXd first_x_m_;   ///< [3n] of the first frame
+  Eigen::VectorXd solution_;    ///< [p]; p = shared + features
+  Eigen::MatrixXd covariance_;  ///< [p x p]
 };
 
 }  // namespace palpate::force_estimation

@@ -140,8 +140,8 @@ Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
   PublishState();
   if (Status status = fit_.Match(frame); !status.ok()) return status;
   bias_frames_.Add(bias_, frame.epoch, fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
-  bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
-  fit_.SetBiasShape(fit_.state().x_m);
+  if (bias_.frames() == 0) fit_.SetBiasShape(fit_.state().x_m);
+  bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera, frame.epoch);
   return {StatusCode::kNoCalibration, "the depth bias is being estimated: frame " +
                                           std::to_string(bias_.frames()) + " without contact"};
 }

@@ -234,6 +234,73 @@ TEST(DepthBias, IsAsWrongAsItSaysWhetherFramesErrAlikeOrNot) {
   }
 }
 
+/// Sequences in other postures, each of which adds errors of its own to the points' offsets.
+struct PostureLesson {
+  static constexpr std::size_t kFeatures = 40;
+
+  /// Learns `postures` of two frames each. Returns the mean square, over its variance, of the error
+  /// of the correction in one more posture.
+  double Learn(double posture_m, int postures, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::vector<correspondence::FeatureMatch> matches(kFeatures);
+    std::vector<double> offset_m(kFeatures);
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+      const double angle = 0.5 * static_cast<double>(k);
+      matches[k].state = correspondence::MatchState::kMatched;
+      matches[k].sigma_m = 3e-5;
+      matches[k].normal = -Eigen::Vector3d(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0.9);
+      matches[k].position_m = {0.05 * std::cos(angle), 0.05 * std::sin(angle), 0.45};
+      offset_m[k] = 3e-4 * normal(random);
+    }
+    DepthBias bias(kFeatures, {});
+    const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    const Eigen::VectorXd x_m = Eigen::VectorXd::Zero(3);
+    for (int posture = 0; posture < postures; ++posture) {
+      std::vector<double> here_m = offset_m;
+      for (double& one_m : here_m) one_m += posture_m * normal(random);
+      for (int frame = 0; frame < 2; ++frame) {
+        for (std::size_t k = 0; k < kFeatures; ++k) {
+          matches[k].target_m = here_m[k] + matches[k].sigma_m * normal(random);
+        }
+        bias.Learn(matches, x_m, pose, static_cast<std::uint32_t>(posture));
+      }
+    }
+    EXPECT_TRUE(bias.Finish().ok());
+    noise_scale = bias.NoiseScale();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+      const int feature = static_cast<int>(k);
+      const double error_m =
+          bias.Correction_m(feature, matches[k], pose) - offset_m[k] - posture_m * normal(random);
+      sigma_m = bias.CorrectionSigma_m(feature, matches[k], pose);
+      sum += error_m * error_m / (sigma_m * sigma_m);
+    }
+    return sum / kFeatures;
+  }
+
+  double noise_scale = 0.0, sigma_m = 0.0;
+};
+
+TEST(DepthBias, IsAsWrongAsItSaysInAPostureThatIsToCome) {
+  for (const double posture_m : {5e-5, 1e-4, 2e-4}) {
+    double sum = 0.0;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+      PostureLesson lesson;
+      sum += lesson.Learn(posture_m, 3, 500 + seed);
+      EXPECT_NEAR(lesson.noise_scale, 1.0, 0.25) << "what postures differ by is no noise";
+    }
+    EXPECT_NEAR(std::sqrt(sum / 30), 1.0, 0.2) << posture_m;
+  }
+}
+
+TEST(DepthBias, PosturesThatAgreeTellMoreThanOne) {
+  PostureLesson one, four;
+  one.Learn(0.0, 1, 9);
+  four.Learn(0.0, 4, 9);
+  EXPECT_LT(four.sigma_m, one.sigma_m);
+}
+
 /// The effect of a bias on surface points all over the image is estimated from every other one and
 /// predicted for the rest. `bias_m`: change of a cloud point (camera frame) at a position.
 template <typename Bias>
