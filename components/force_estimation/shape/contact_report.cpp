@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/force_estimation/shape/temporal_correlation.hpp"
 #include "libs/core/index.hpp"
@@ -35,6 +36,19 @@ Eigen::Matrix3d WholeCovariance(const ShapeFitter& fit, std::size_t site) {
     return fit.located()[site].force_covariance_N2 + ShareOfBias(fit, site);
   }
   return CovarianceOf(fit, site);
+}
+
+/// Of covariances, where the fit leaves more than they say.
+double InflationOf(const ShapeFitter& fit) {
+  const int freedom = DegreesOfFreedom(fit);
+  return freedom > 0 ? std::max(1.0, fit.fitter().fit().chi_squared / freedom) : 1.0;
+}
+
+/// Whether no force is within the 95 % ellipsoid about this one.
+bool IsZeroWithin(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2) {
+  const Eigen::LLT<Eigen::Matrix3d> spread(covariance_N2);
+  return spread.info() == Eigen::Success &&
+         force_N.dot(spread.solve(force_N)) <= ChiSquaredQuantile(0.95, 3);
 }
 
 /// The part of a force's covariance that comes from the depth noise, and so differs from frame to
@@ -98,14 +112,19 @@ void ContactReport::Judge(double t_s, bool begins, ShapeFitter* fit) const {
   }
 }
 
+bool ContactReport::HoldsZero(const ShapeFitter& fit, std::size_t site) const {
+  return IsZeroWithin(fit.ForceAt(site), InflationOf(fit) * WholeCovariance(fit, site));
+}
+
 std::vector<ContactForce> ContactReport::Contacts(const ShapeFitter& fit) const {
-  const int freedom = DegreesOfFreedom(fit);
-  const double inflation =
-      freedom > 0 ? std::max(1.0, fit.fitter().fit().chi_squared / freedom) : 1.0;
+  const double inflation = InflationOf(fit);
   std::vector<ContactForce> contacts;
   for (std::size_t s = 0; s < fit.sites().size(); ++s) {
     const ShapeSite& site = fit.sites()[s];
-    if (site.acts && site.quiet_frames == 0) contacts.push_back(ContactAt(fit, s, inflation));
+    if (!site.acts || site.quiet_frames > 0) continue;
+    ContactForce contact = ContactAt(fit, s, inflation);
+    if (site.hidden && IsZeroWithin(contact.force_N, contact.covariance_N2)) continue;
+    contacts.push_back(std::move(contact));
   }
   return contacts;
 }

@@ -46,7 +46,11 @@ class ContactReport {
   /// Counts the frames in which each contact's force is significant, and filters the forces.
   /// `begins`: first frame of a sequence, in which contacts may be there already.
   void Judge(double t_s, bool begins, ShapeFitter* fit) const;
-  /// The contacts that act and are not quiet in this frame.
+  /// Whether the 95 % ellipsoid of the last fit's force holds zero, with the uncertainty of the
+  /// contact's location.
+  bool HoldsZero(const ShapeFitter& fit, std::size_t site) const;
+  /// The contacts that act and are not quiet in this frame. Of hidden ones those whose
+  /// ellipsoid does not hold zero: no image shows that something is there.
   std::vector<ContactForce> Contacts(const ShapeFitter& fit) const;
 
  private:

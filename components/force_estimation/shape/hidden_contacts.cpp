@@ -86,8 +86,12 @@ Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
     }
     for (const HiddenContact& contact : found) taken_m.push_back(contact.rest_position_m);
   }
-  if (tried > 0) pause_ = std::min(2 * pause_, tuning_.longest_pause_frames);
+  if (tried > 0) CountAsFailed();
   return status;
+}
+
+void HiddenContacts::CountAsFailed() {
+  pause_ = std::min(2 * pause_, tuning_.longest_pause_frames);
 }
 
 bool HiddenContacts::IsMisfitLarge() const {

@@ -69,6 +69,8 @@ class HiddenContacts {
   Status Find(const ShapeFrame& frame, const DepthBias& bias);
   /// Solves for the responses that the last Find postponed, if any.
   void PrepareNext(const std::vector<robot::CableCommand>& cables);
+  /// The contacts of the last search were removed: the next one is later.
+  void CountAsFailed();
   /// Removes all hidden sites.
   void Forget();
   /// The same at the begin of a sequence, without failed attempts.

@@ -363,6 +363,17 @@ void ShapeFitter::GoBackWithoutContacts(Attempt attempt) {
   GoBack(attempt);
 }
 
+void ShapeFitter::Remove(std::size_t site) {
+  Attempt rest;
+  KeepIn(&rest);
+  rest.sites.erase(rest.sites.begin() + static_cast<std::ptrdiff_t>(site));
+  Eigen::VectorXd& forces_N = rest.state.lambda_f_N;
+  const auto after = forces_N.size() - ToIndex(3 * site) - 3;
+  forces_N.segment(ToIndex(3 * site), after) = forces_N.tail(after).eval();
+  forces_N.conservativeResize(forces_N.size() - 3);
+  GoBack(rest);
+}
+
 /// Their forces begin at zero, from where the steps stay near equilibria. The forces of the search
 /// belong to a shape that the model does not have yet.
 void ShapeFitter::ReplaceHidden(const std::vector<HiddenContact>& found) {

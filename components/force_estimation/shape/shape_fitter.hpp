@@ -131,6 +131,8 @@ class ShapeFitter {
   void GoBack(const Attempt& attempt);
   /// Restores its shape, without contacts.
   void GoBackWithoutContacts(Attempt attempt);
+  /// Removes a contact: the shape must be fitted again.
+  void Remove(std::size_t site);
   /// Replaces the hidden sites; their forces begin at zero.
   void ReplaceHidden(const std::vector<HiddenContact>& found);
 

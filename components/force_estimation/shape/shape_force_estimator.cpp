@@ -80,6 +80,7 @@ class ShapeForceEstimator::Impl {
   Status FindAll(const ShapeFrame& frame, Status status);
   Status FindInRounds(const ShapeFrame& frame);
   Status FindContacts(const ShapeFrame& frame);
+  Status DropUncertainHidden(const ShapeFrame& frame);
   Status CheckMisfit();
   void ForgetBefore(const ShapeFrame& frame);
   void Publish();
@@ -211,6 +212,7 @@ Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
   } else if (status.ok()) {
     status = FindContacts(frame);
   }
+  if (status.ok()) status = DropUncertainHidden(frame);
   if (status.ok()) status = CheckMisfit();
   if (status.ok()) report_.Judge(frame.t_s, begins_, &fit_);
   return status;
@@ -259,6 +261,20 @@ Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
   if (status.ok()) status = hidden_.Find(frame, bias_);
   if (status.ok()) status = fit_.Locate(frame, bias_);
   return status;
+}
+
+/// A hidden contact that is found in this frame, and of which it tells no force, would take its
+/// share from the visible ones.
+Status ShapeForceEstimator::Impl::DropUncertainHidden(const ShapeFrame& frame) {
+  std::vector<std::size_t> uncertain;
+  for (std::size_t s = fit_.sites().size(); s-- > 0;) {
+    const ShapeSite& site = fit_.sites()[s];
+    if (site.hidden && site.frames == 0 && report_.HoldsZero(fit_, s)) uncertain.push_back(s);
+  }
+  if (uncertain.empty()) return Status::Ok();
+  for (const std::size_t s : uncertain) fit_.Remove(s);
+  hidden_.CountAsFailed();
+  return fit_.MatchAndFit(frame, bias_);
 }
 
 /// A shape that neither contacts nor noise explain is not the robot's, or the camera pose is wrong:
