@@ -28,13 +28,14 @@ const std::vector<DetectedContact>& ContactTracker::Update(
     }
   }
   std::erase_if(tracks_, [this](const Track& track) {
-    return track.frames_missing >= (track.number == 0 ? 1 : config_.vanish_frames);
+    const bool is_settled = track.number > 0 && track.frames_seen >= config_.appear_frames;
+    return track.frames_missing >= (is_settled ? config_.vanish_frames : 1);
   });
   for (std::size_t d = 0; d < detected.size(); ++d) {
     if (known[d] != 0) continue;
     Track& track = tracks_.emplace_back();
     track.contact = detected[d];
-    track.contact.frames_seen = 1;
+    track.contact.frames_seen = track.frames_seen = 1;
   }
   Report();
   return contacts_;
@@ -81,6 +82,7 @@ void ContactTracker::See(const DetectedContact& detected, Track* track) const {
                            kept * (1.0 - kept) * moved_m * moved_m.transpose();
   contact.extent_m += kept * (last.extent_m - detected.extent_m);
   contact.frames_seen = last.frames_seen + 1;
+  ++track->frames_seen;
   track->frames_missing = 0;
 }
 

@@ -21,7 +21,8 @@ class ContactTracker {
 
   /// `detected`: contacts of one frame, names not used. Returns the confirmed contacts by rising
   /// number; one that is missing in this frame keeps its position, with frames_seen 0, until it has
-  /// vanished. Holds until the next call.
+  /// vanished. One that was confirmed in the first frame and is missing before appear_frames
+  /// vanishes at once: that frame's shape was a guess. Holds until the next call.
   const std::vector<DetectedContact>& Update(const std::vector<DetectedContact>& detected);
 
   /// Removes all contacts. Their names are not used again. Contacts of the next frame may be old:
@@ -31,7 +32,8 @@ class ContactTracker {
  private:
   struct Track {
     DetectedContact contact;
-    int number = 0;  ///< 0: not confirmed yet
+    int number = 0;       ///< 0: not confirmed yet
+    int frames_seen = 0;  ///< of all
     int frames_missing = 0;
   };
 

@@ -41,6 +41,15 @@ TEST(ContactTracker, WhatTheFirstFrameShowsIsThereAtOnce) {
   EXPECT_EQ(NamesOf(tracker.Update({At(0.0), At(0.1)})), (Names{"contact_2", "contact_3"}));
 }
 
+/// The shape that the first frame is segmented by is a guess.
+TEST(ContactTracker, WhatIsMissingSoonAfterTheFirstFrameVanishesAtOnce) {
+  ContactTracker tracker({.appear_frames = 3, .vanish_frames = 3});
+  EXPECT_EQ(NamesOf(tracker.Update({At(0.0), At(0.1)})), (Names{"contact_1", "contact_2"}));
+  EXPECT_EQ(NamesOf(tracker.Update({At(0.1)})), Names{"contact_2"});
+  EXPECT_EQ(NamesOf(tracker.Update({At(0.1)})), Names{"contact_2"});
+  EXPECT_EQ(NamesOf(tracker.Update({})), Names{"contact_2"});
+}
+
 TEST(ContactTracker, AppearsAndVanishesAfterExactlySoManyFrames) {
   for (const auto& [appear, vanish] : {std::pair(1, 1), std::pair(3, 2), std::pair(5, 7)}) {
     ContactTracker tracker({.appear_frames = appear, .vanish_frames = vanish});
