@@ -145,6 +145,10 @@ void Keystore::Enroll(const std::vector<Identity>& identities, const RightsOfIde
     WriteFile(files.permissions, security::SignDocument(permissions, permissions_authority));
     WriteFile(files.certificate, own.certificate_pem);
     WriteSecret(files.private_key, own.private_key_pem);
+    const auto known = manifest_.identities.find(identity.name);
+    if (known != manifest_.identities.end() && !known->second.identity.host.empty()) {
+      manifest_.hosts[known->second.identity.host].needed = manifest_.version;
+    }
     manifest_.identities.insert_or_assign(
         identity.name,
         EnrolledIdentity{identity, security::ReadCertificate(own.certificate_pem).serial_hex});

@@ -210,6 +210,15 @@ TEST_F(KeystoreTest, EnrollRenewsWhatIsThere) {
   EXPECT_THAT(check.text, HasSubstr("warning: "));
 }
 
+TEST_F(KeystoreTest, AnIdentityThatMovesLeavesOldFilesOnItsFormerHost) {
+  ASSERT_EQ(RunVerb({"init", keystore(), "capture@old_host"}).code, 0);
+  CopyTo("old", {"capture"});
+  ASSERT_EQ(RunVerb({"check", keystore(), "--host", "old_host=" + Host("old")}).code, 0);
+  const Answer moved = RunVerb({"enroll", keystore(), "capture=capture@new_host"});
+  EXPECT_THAT(moved.text, HasSubstr("old_host: remove all of enclaves/"));
+  EXPECT_THAT(moved.text, HasSubstr("new_host: copy enclaves/ of capture"));
+}
+
 TEST_F(KeystoreTest, AnEnrolledNameAfterARevocationIsGoodAgain) {
   ASSERT_EQ(RunVerb({"init", keystore(), "capture"}).code, 0);
   ASSERT_EQ(RunVerb({"revoke", keystore(), "capture"}).code, 0);
