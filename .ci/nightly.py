@@ -35,6 +35,7 @@ class Test:
     limit_s: float = 1500.0
     alone: bool = False
     locks: frozenset = frozenset()
+    skip_code: int | None = None  # exit code of a test that lacks what it needs
 
     @staticmethod
     def from_ctest(entry):
@@ -44,7 +45,8 @@ class Test:
                     environment=tuple(properties.get("ENVIRONMENT", [])),
                     limit_s=properties.get("TIMEOUT", Test.limit_s),
                     alone=properties.get("RUN_SERIAL", False),
-                    locks=frozenset(properties.get("RESOURCE_LOCK", [])))
+                    locks=frozenset(properties.get("RESOURCE_LOCK", [])),
+                    skip_code=properties.get("SKIP_RETURN_CODE"))
 
 
 def rotate(tests, date):
@@ -103,6 +105,13 @@ class Runner:
             return False
         return len(others) < self.jobs
 
+    @staticmethod
+    def result_of(test, exit_code):
+        if exit_code == 0:
+            return "passed"
+        skipped = exit_code is not None and exit_code == test.skip_code
+        return "skipped" if skipped else "FAILED"
+
     def begin(self, test):
         output = tempfile.TemporaryFile(mode="w+", errors="replace")
         environment = os.environ | dict(item.split("=", 1) for item in test.environment)
@@ -115,12 +124,12 @@ class Runner:
             taken_s = time.monotonic() - begin
             if process.poll() is None and taken_s < test.limit_s:
                 continue
-            passed = process.poll() == 0
+            result = self.result_of(test, process.poll())
             end(process)
             del self.running[process]
-            self.counts["passed" if passed else "failed"] += 1
-            self.say(f"{'passed' if passed else 'FAILED'} {taken_s:6.1f} s  {test.name}")
-            if not passed:
+            self.counts[result.lower()] += 1
+            self.say(f"{result} {taken_s:6.1f} s  {test.name}")
+            if result != "passed":
                 output.seek(0)
                 self.say("".join(output.readlines()[-LINES_OF_A_FAILURE:]))
             output.close()

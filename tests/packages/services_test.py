@@ -46,7 +46,7 @@ class Host:
     def __init__(self, store, settings):
         self.store = store
         started = store.podman(
-            "run", "--detach", "--name", "host", "--systemd", "always", "--privileged",
+            "run", "--detach", "--timeout", "900", "--name", "host", "--systemd", "always", "--privileged",
             "--network", "none", "--runtime", "runc", "--ulimit", "nofile=1024:1024",
             "--ulimit", "nproc=4096:4096", "--volume", f"{settings}:/etc/palpate:ro", "services",
             check=False)

@@ -49,6 +49,12 @@ class Run(unittest.TestCase):
         self.assertEqual(counts, {"passed": 1, "failed": 1, "cut off": 0, "not begun": 0})
         self.assertIn("why\n", self.lines)
 
+    def test_what_lacks_a_tool_is_skipped_with_its_reason(self):
+        counts = self.run_tests([test_of("skips", "echo no podman; exit 77", skip_code=77),
+                                 test_of("fails", "exit 77")])
+        self.assertEqual((counts["skipped"], counts["failed"]), (1, 1))
+        self.assertIn("no podman", "".join(self.lines))
+
     def test_the_end_of_the_time_is_no_failure(self):
         begin = time.monotonic()
         counts = self.run_tests([test_of("a", "sleep 60 & wait"), test_of("b", "true")],
@@ -77,10 +83,11 @@ class Run(unittest.TestCase):
              "properties": [{"name": "ENVIRONMENT", "value": ["A=1"]},
                             {"name": "TIMEOUT", "value": 300.0},
                             {"name": "RUN_SERIAL", "value": True},
+                            {"name": "SKIP_RETURN_CODE", "value": 77},
                             {"name": "RESOURCE_LOCK", "value": ["domain_20"]},
                             {"name": "WORKING_DIRECTORY", "value": "/tmp"}]})
         self.assertEqual(test, nightly.Test("a.b", ("program", "--filter=b"), "/tmp", ("A=1",),
-                                            300.0, True, frozenset({"domain_20"})))
+                                            300.0, True, frozenset({"domain_20"}), 77))
 
 
 if __name__ == "__main__":
