@@ -82,8 +82,9 @@ def check_image(store):
 
 def container_words(name, service=None):
     """What compose gives a service, as options of podman run."""
-    words = ["--timeout", "900", "--network", "host", "--runtime", "runc", "--ulimit", "nofile=1024:1024",
-             "--ulimit", "nproc=1024:1024", "--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL",
+    words = ["--timeout", "900", "--network", "host", "--runtime", "runc",
+             "--ulimit", "nofile=1024:1024", "--ulimit", "nproc=1024:1024",
+             "--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL",
              "--security-opt", "no-new-privileges", "--name", name,
              "--volume", f"{ROOT / 'docker/bench'}:/etc/palpate:ro"]
     for key, value in ENVIRONMENT.items():

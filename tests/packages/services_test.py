@@ -25,6 +25,7 @@ IMAGE = """FROM localhost/palpate
 USER root
 RUN apt-get update -qq && apt-get install --yes -qq --no-install-recommends systemd dbus && \\
     userdel palpate && rm -r /var/lib/palpate
+WORKDIR /
 CMD ["/lib/systemd/systemd"]
 """
 SCENARIO = "--scenario /usr/share/palpate/config/scenarios/sensing.yaml"
@@ -46,26 +47,27 @@ class Host:
     def __init__(self, store, settings):
         self.store = store
         started = store.podman(
-            "run", "--detach", "--timeout", "900", "--name", "host", "--systemd", "always", "--privileged",
-            "--network", "none", "--runtime", "runc", "--ulimit", "nofile=1024:1024",
-            "--ulimit", "nproc=4096:4096", "--volume", f"{settings}:/etc/palpate:ro", "services",
-            check=False)
-        until(lambda: self.call("systemctl", "is-system-running", check=False).strip()
+            "run", "--detach", "--timeout", "900", "--name", "host", "--systemd", "always",
+            "--privileged", "--network", "none", "--runtime", "runc",
+            "--ulimit", "nofile=1024:1024", "--ulimit", "nproc=4096:4096", "--volume",
+            f"{settings}:/etc/palpate:ro", "services", check=False)
+        until(lambda: self.call("systemctl", "is-system-running", must=False).strip()
               in ("running", "degraded"), lambda: skip(f"systemd does not boot here: {started}"))
 
-    def call(self, *words, check=True):
-        return self.store.podman("exec", "host", *words, check=check)
+    def call(self, *words, must=True):
+        variables = [f"--env={key}={value}" for key, value in check.ENVIRONMENT.items()]
+        return self.store.podman("exec", *variables, "host", *words, check=must)
 
     def state(self, unit, name):
         return self.call("systemctl", "show", "--value", "--property", name, unit).strip()
 
     def health(self):
-        said = self.call("palpate", "health", *ARGUMENTS, "--any-status", "--json", check=False)
-        return json.loads(said)
+        said = self.call("palpate", "health", *ARGUMENTS, "--any-status", "--json", must=False)
+        return json.loads(said) if said.startswith("{") else {"well": False, "said": said}
 
     def explain(self):
         raise SystemExit(f"{self.health()}\n" + self.call(
-            "systemctl", "--no-pager", "status", *UNITS, check=False))
+            "systemctl", "--no-pager", "status", *UNITS, must=False))
 
 
 def until(holds, otherwise):
