@@ -151,17 +151,24 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
   run->HideTable();
 }
 
-/// Each recording is a sequence, whose first frames are used for the depth bias and give no forces.
-/// Of short recordings none would be left.
-std::vector<std::string> BiasSettings(const ReplayedImages& images,
-                                      const robot::CalibrationFile& calibration) {
+/// A depth bias holds for the pose with which it was calibrated. Without one, the first frames of
+/// each recording, which is a sequence, are used for it and give no forces. Of short recordings
+/// none would be left.
+std::vector<std::string> EstimationSettings(const ReplayedImages& images,
+                                            const robot::CalibrationFile& calibration) {
+  std::vector<std::string> settings;
+  if (calibration.pose) {
+    settings = {"force_estimation.camera_pose=''", "force_estimation.source=shape"};
+  }
   const int bias_frames = force_estimation::ShapeConfig().untouched_frames;
-  if (calibration.depth_bias || images.fewest_frames > bias_frames) return {};
+  const bool biased = calibration.pose && calibration.depth_bias;
+  if (biased || images.fewest_frames > bias_frames) return settings;
   fmt::print(
       "  recordings of {} frames and more, none with a calibrated depth bias: it is estimated with "
       "the forces of each frame. Intervals are wider (palpate calibrate, --calibration)\n",
       images.fewest_frames);
-  return {"force_estimation.shape.untouched_frames=0"};
+  settings.emplace_back("force_estimation.shape.untouched_frames=0");
+  return settings;
 }
 
 void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::path& robot,
@@ -181,7 +188,7 @@ void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::pat
                        {"data", std::filesystem::absolute(options.data)},
                        {"camera_pose", geometry::FormatPose(images.T_robot_camera)}},
          .calibration = options.calibration,
-         .settings = BiasSettings(images, calibration),
+         .settings = EstimationSettings(images, calibration),
          .last = "player"});
     if (!run->AwaitComponents({"perception", "force_estimation"})) return;
     run->processes().StartLast();
