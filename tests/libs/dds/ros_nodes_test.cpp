@@ -62,7 +62,9 @@ TEST(DomainGraph, SeesNodesOfBothLayoutsWithTheirEndpointsUntilTheyGo) {
     ++of_forces;
     ASSERT_NE(graph.NodeOf(guid), nullptr);
     EXPECT_EQ(graph.NodeOf(guid)->name, endpoint.is_writer ? "humble_node" : "iron_node");
-    if (endpoint.is_writer) EXPECT_EQ(endpoint.depth, 100);
+    if (endpoint.is_writer) {
+      EXPECT_EQ(endpoint.depth, 100);
+    }
   }
   EXPECT_EQ(of_forces, 2);
   { const auto gone = std::move(humble); }

@@ -26,12 +26,12 @@ using Json = nlohmann::ordered_json;
 /// Name and type.
 using Interfaces = std::map<std::string, std::string>;
 
-struct ListOptions : GraphOptions {
+struct NodeListOptions : GraphOptions {
   bool all = false;
   bool count = false;
 };
 
-struct InfoOptions : GraphOptions {
+struct NodeInfoOptions : GraphOptions {
   std::string node;
   bool hidden = false;
 };
@@ -125,7 +125,7 @@ Json ListJson(const dds::DomainGraph& graph, const std::vector<std::string>& nam
   return {{"domain", graph.domain_id()}, {"nodes", names}, {"other_participants", participants}};
 }
 
-int List(const ListOptions& options) {
+int List(const NodeListOptions& options) {
   const GraphNames names(options);
   dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
   graph.WatchUntilComplete(SpinEnd(options));
@@ -191,7 +191,7 @@ Json InterfacesJson(const std::string& node, const dds::DomainParticipant* parti
           {"action_clients", GroupJson(interfaces.action_clients)}};
 }
 
-int Info(const InfoOptions& options) {
+int Info(const NodeInfoOptions& options) {
   const GraphNames names(options);
   dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
   const dds::RosNode node = WaitForNode(graph, names, options, options.node);
@@ -211,7 +211,7 @@ int Info(const InfoOptions& options) {
 
 app::Verb NodeListVerb() {
   return {"list", "List the nodes of a domain", [](app::Arguments& arguments) -> app::Verb::Action {
-            const auto options = std::make_shared<ListOptions>();
+            const auto options = std::make_shared<NodeListOptions>();
             DeclareGraph(arguments, options.get());
             arguments.Flag("--all,-a", &options->all,
                            "List hidden nodes and DDS participants without nodes, too");
@@ -226,7 +226,7 @@ app::Verb NodeListVerb() {
 app::Verb NodeInfoVerb() {
   return {"info", "Show the topics and services of a node",
           [](app::Arguments& arguments) -> app::Verb::Action {
-            const auto options = std::make_shared<InfoOptions>();
+            const auto options = std::make_shared<NodeInfoOptions>();
             arguments.Positional("NODE", &options->node, "Name of the node, like /palpate_player");
             DeclareGraph(arguments, options.get());
             arguments.Flag("--include-hidden", &options->hidden, "Show hidden ones, too");

@@ -19,14 +19,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct ListOptions : GraphOptions {
+struct TopicListOptions : GraphOptions {
   bool types = false;
   bool count = false;
   bool verbose = false;
   bool hidden = false;
 };
 
-struct InfoOptions : GraphOptions {
+struct TopicInfoOptions : GraphOptions {
   std::string topic;
   bool verbose = false;
 };
@@ -60,7 +60,7 @@ Json ListJson(const dds::DomainGraph& graph, const std::map<std::string, TopicSu
   return {{"domain", graph.domain_id()}, {"topics", list}};
 }
 
-int List(const ListOptions& options) {
+int List(const TopicListOptions& options) {
   const GraphNames names(options);
   dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
   graph.WatchUntilComplete(SpinEnd(options));
@@ -165,7 +165,7 @@ void PrintInfo(const dds::DomainGraph& graph, const TopicSummary& topic, bool ve
   }
 }
 
-int Info(const InfoOptions& options) {
+int Info(const TopicInfoOptions& options) {
   const GraphNames names(options);
   dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
   const auto end = SpinEnd(options);
@@ -196,7 +196,7 @@ int Info(const InfoOptions& options) {
 app::Verb TopicListVerb() {
   return {"list", "List the topics of a domain",
           [](app::Arguments& arguments) -> app::Verb::Action {
-            const auto options = std::make_shared<ListOptions>();
+            const auto options = std::make_shared<TopicListOptions>();
             DeclareGraph(arguments, options.get());
             arguments.Flag("--show-types,-t", &options->types, "Show the types, too");
             arguments.Flag("--count-topics,-c", &options->count, "Print only how many there are");
@@ -214,7 +214,7 @@ app::Verb TopicListVerb() {
 app::Verb TopicInfoVerb() {
   return {"info", "Show type, publishers and subscriptions of a topic",
           [](app::Arguments& arguments) -> app::Verb::Action {
-            const auto options = std::make_shared<InfoOptions>();
+            const auto options = std::make_shared<TopicInfoOptions>();
             arguments.Positional("TOPIC", &options->topic, "Name of the topic, like /forces");
             DeclareGraph(arguments, options.get());
             arguments.Flag("--verbose,-v", &options->verbose,
