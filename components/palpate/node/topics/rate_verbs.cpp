@@ -233,7 +233,7 @@ void CheckOptions(RateOptions* options) {
 app::Verb RateVerb(const char* name, const char* purpose, int window, bool decodes,
                    const MakeMeter& make) {
   return {name, purpose, [window, decodes, make](app::Arguments& arguments) -> app::Verb::Action {
-            constexpr int kMost = std::numeric_limits<int>::max();
+            constexpr int kLargest = std::numeric_limits<int>::max();
             const auto options = std::make_shared<RateOptions>();
             options->window = window;
             options->decodes = decodes;
@@ -241,10 +241,10 @@ app::Verb RateVerb(const char* name, const char* purpose, int window, bool decod
             options->durability = "volatile";
             arguments.Positional("TOPIC", &options->topic, "Name of the topic, like /forces");
             DeclareGraph(arguments, options.get());
-            arguments.Option("--window,-w N", &options->window, 1, kMost,
+            arguments.Option("--window,-w N", &options->window, 1, kLargest,
                              "Number of messages over which it is averaged");
             arguments.Flag("--once", &options->once, "Print one result and exit");
-            arguments.Option("--count N", &options->count, 0, kMost,
+            arguments.Option("--count N", &options->count, 0, kLargest,
                              "Exit after this number of results, one a second; 0: at Ctrl-C");
             arguments.Option("--timeout S", &options->timeout_s,
                              "Exit with 1 after this time without a result, s; 0: never");
