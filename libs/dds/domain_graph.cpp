@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "libs/dds/domain.hpp"
-#include "libs/dds/qos.hpp"
 #include "libs/dds/type_idl.hpp"
 
 namespace palpate::dds {
@@ -110,13 +109,12 @@ std::string GuidText(const Guid& guid) {
   return text;
 }
 
-DomainGraph::DomainGraph(std::uint32_t domain_id, NeedsIdl needs_idl)
+DomainGraph::DomainGraph(std::uint32_t domain_id, NeedsIdl needs_idl,
+                         const SecuritySettings& security)
     : domain_id_(domain_id),
       needs_idl_(std::move(needs_idl)),
       domain_(ApplyDomainSettings(domain_id)),
-      participant_(dds_create_participant(domain_id, ParticipantQos().get(), nullptr),
-                   "a participant in domain " + std::to_string(domain_id) +
-                       " (is a network interface up, and CYCLONEDDS_URI right?)"),
+      participant_(CreateParticipant(domain_id, security)),
       guard_(dds_create_guardcondition(participant_.handle()), "a guard condition"),
       participant_reader_(BuiltInReader(participant_.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)),
       writer_reader_(BuiltInReader(participant_.handle(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION)),

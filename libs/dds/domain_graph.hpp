@@ -17,6 +17,7 @@
 #include "libs/dds/entity.hpp"
 #include "libs/dds/raw_reader.hpp"
 #include "libs/dds/ros_nodes.hpp"
+#include "libs/dds/security_qos.hpp"
 #include "libs/dds/topic_table.hpp"
 
 namespace palpate::dds {
@@ -60,8 +61,9 @@ class DomainGraph {
   using NeedsIdl = std::function<bool(const DomainEndpoint&)>;
 
   /// Joins the domain. `needs_idl`(writer): whether the structure of its type is to be asked for,
-  /// which takes up to a second where it does not answer. Throws RunError where DDS refuses.
-  explicit DomainGraph(std::uint32_t domain_id, NeedsIdl needs_idl = {});
+  /// which takes up to a second where it does not answer. Throws as CreateParticipant does.
+  explicit DomainGraph(std::uint32_t domain_id, NeedsIdl needs_idl = {},
+                       const SecuritySettings& security = {});
   ~DomainGraph();
 
   std::uint32_t domain_id() const { return domain_id_; }

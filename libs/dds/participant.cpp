@@ -6,32 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "libs/core/error.hpp"
-#include "libs/dds/dds_reports.hpp"
-#include "libs/dds/qos.hpp"
 #include "libs/dds/ros_names.hpp"
-#include "libs/security/permissions.hpp"
 
 namespace palpate::dds {
 
 namespace {
-
-Entity CreateParticipant(const ParticipantSettings& settings) {
-  const SecuritySettings& security = settings.security;
-  if (security.enabled() && settings.domain_id > security::kLastSecuredDomain) {
-    throw InputError("domain " + std::to_string(settings.domain_id) +
-                     " cannot be secured: take one up to " +
-                     std::to_string(security::kLastSecuredDomain));
-  }
-  const Qos qos = ParticipantQos("/" + (security.enabled() ? security.identity : ""));
-  SetSecurity(security, qos.get());
-  if (security.enabled()) CountRepeatedDdsReports();
-  return Entity(dds_create_participant(settings.domain_id, qos.get(), nullptr),
-                "a participant in domain " + std::to_string(settings.domain_id) +
-                    (security.enabled() ? " as '" + security.identity + "'" : "") +
-                    " (is a network interface up, and CYCLONEDDS_URI right? `lo` needs multicast "
-                    "or unicast peers)");
-}
 
 std::unique_ptr<ParameterServices> MakeParameters(dds_entity_t participant, const TopicNames& names,
                                                   const std::vector<Parameter>& parameters) {
@@ -58,7 +37,7 @@ Participant::Participant(const ParticipantSettings& settings, TopicTable table)
       table_(WithRawKept(table, settings.remote_raw)),
       names_(settings.node_name, settings.node_namespace, settings.remap, table_),
       domain_(ApplyDomainSettings(settings.domain_id)),
-      entity_(CreateParticipant(settings)),
+      entity_(CreateParticipant(settings.domain_id, settings.security)),
       graph_(entity_.handle(), names_.node_namespace(), names_.node_name(), settings.gid_layout),
       clock_(std::make_shared<RosClock>()),
       parameters_(MakeParameters(entity_.handle(), names_, settings.parameters)) {

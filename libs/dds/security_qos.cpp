@@ -13,7 +13,10 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/dds/dds_reports.hpp"
+#include "libs/dds/qos.hpp"
 #include "libs/security/material.hpp"
+#include "libs/security/permissions.hpp"
 
 namespace palpate::dds {
 
@@ -108,6 +111,21 @@ void SetSecurity(const SecuritySettings& settings, dds_qos_t* qos) {
   SetFile(qos, "dds.sec.access.permissions_ca", material.permissions_authority);
   SetFile(qos, "dds.sec.access.governance", material.governance);
   SetFile(qos, "dds.sec.access.permissions", material.permissions);
+}
+
+Entity CreateParticipant(std::uint32_t domain_id, const SecuritySettings& settings) {
+  if (settings.enabled() && domain_id > security::kLastSecuredDomain) {
+    throw InputError("domain " + std::to_string(domain_id) + " cannot be secured: take one up to " +
+                     std::to_string(security::kLastSecuredDomain));
+  }
+  const Qos qos = ParticipantQos("/" + (settings.enabled() ? settings.identity : ""));
+  SetSecurity(settings, qos.get());
+  if (settings.enabled()) CountRepeatedDdsReports();
+  return Entity(dds_create_participant(domain_id, qos.get(), nullptr),
+                "a participant in domain " + std::to_string(domain_id) +
+                    (settings.enabled() ? " as '" + settings.identity + "'" : "") +
+                    " (is a network interface up, and CYCLONEDDS_URI right? `lo` needs multicast "
+                    "or unicast peers)");
 }
 
 }  // namespace palpate::dds

@@ -5,8 +5,11 @@
 
 #include <dds/dds.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include "libs/dds/entity.hpp"
 
 namespace palpate::dds {
 
@@ -23,6 +26,10 @@ struct SecuritySettings {
 /// InputError with file, reason and remedy where the files do not allow it (CheckMaterial), and
 /// where CYCLONEDDS_URI asks for shared memory, which would bypass the encryption.
 void SetSecurity(const SecuritySettings& settings, dds_qos_t* qos);
+
+/// A participant as ROS 2 expects it, secured where `settings` are enabled. Throws as SetSecurity
+/// does, InputError for a domain that cannot be secured, and RunError where DDS refuses.
+Entity CreateParticipant(std::uint32_t domain_id, const SecuritySettings& settings);
 
 /// Whether settings of Cyclone DDS (XML) turn shared memory on.
 bool WantsSharedMemory(const std::string& xml);

@@ -64,6 +64,10 @@ bool GraphNames::IsOfNamespace(const std::string& name) const {
                      [&](const dds::TopicSettings& row) { return row.global && row.name == name; });
 }
 
+dds::SecuritySettings GraphSecurity(const std::string& identity) {
+  return dds::SecurityOf(dds::NodeSettings(), identity);
+}
+
 dds::DomainGraph::Clock::time_point SpinEnd(const GraphOptions& options) {
   return dds::DomainGraph::Clock::now() + FromSeconds(options.spin_time_s);
 }

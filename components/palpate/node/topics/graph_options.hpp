@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "libs/app/arguments.hpp"
+#include "libs/dds/access_rights.hpp"
 #include "libs/dds/domain_graph.hpp"
+#include "libs/dds/security_qos.hpp"
 #include "libs/dds/topic_names.hpp"
 
 namespace palpate::command {
@@ -43,6 +45,9 @@ class GraphNames {
   dds::TopicTable table_;
   dds::TopicNames names_;
 };
+
+/// As which the verbs join a domain that is secured (dds::SecurityOf).
+dds::SecuritySettings GraphSecurity(const std::string& identity = dds::kObserver);
 
 /// The latest time to which the options let a search go.
 dds::DomainGraph::Clock::time_point SpinEnd(const GraphOptions& options);

@@ -127,7 +127,7 @@ Json ListJson(const dds::DomainGraph& graph, const std::vector<std::string>& nam
 
 int List(const NodeListOptions& options) {
   const GraphNames names(options);
-  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
+  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity());
   graph.WatchUntilComplete(SpinEnd(options));
   const std::vector<std::string> nodes = NodeNames(graph, names, options.all);
   if (options.json) {
@@ -193,7 +193,7 @@ Json InterfacesJson(const std::string& node, const dds::DomainParticipant* parti
 
 int Info(const NodeInfoOptions& options) {
   const GraphNames names(options);
-  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
+  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity());
   const dds::RosNode node = WaitForNode(graph, names, options, options.node);
   const NodeInterfaces interfaces = InterfacesOf(graph, node, options.hidden);
   if (!options.json) {

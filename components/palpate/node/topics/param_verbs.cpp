@@ -55,7 +55,7 @@ bool HasParameters(const dds::DomainGraph& graph, const dds::RosNode& node) {
 class ParameterNode {
  public:
   explicit ParameterNode(const ParamOptions& options)
-      : graph_(static_cast<std::uint32_t>(options.domain_id)),
+      : graph_(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity()),
         node_(WaitForNode(graph_, GraphNames(options), options, options.node)),
         client_(graph_.participant(), node_.FullName(), kPatience) {
     if (HasParameters(graph_, node_)) return;
@@ -113,7 +113,7 @@ Json ListNode(const dds::ParameterClient& client, const ParamOptions& options) {
 
 int ListAll(const ParamOptions& options) {
   const GraphNames names(options);
-  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
+  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity());
   graph.WatchUntilComplete(SpinEnd(options));
   Json all = Json::object();
   bool all_answered = true;

@@ -121,7 +121,8 @@ ReadableTopic Describe(const TopicSummary& topic, const StreamOptions& options) 
 }  // namespace
 
 TopicStream::TopicStream(const StreamOptions& options)
-    : options_(options), graph_(static_cast<std::uint32_t>(options.domain_id), NeedsIdl(options_)) {
+    : options_(options),
+      graph_(static_cast<std::uint32_t>(options.domain_id), NeedsIdl(options_), GraphSecurity()) {
   const GraphNames names(options_);
   topic_ = Describe(WaitForPublisher(graph_, names, options_), options_);
 }

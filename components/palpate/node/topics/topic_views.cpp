@@ -62,7 +62,7 @@ Json ListJson(const dds::DomainGraph& graph, const std::map<std::string, TopicSu
 
 int List(const TopicListOptions& options) {
   const GraphNames names(options);
-  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
+  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity());
   graph.WatchUntilComplete(SpinEnd(options));
   const auto topics = TopicsOf(graph, names, options.hidden);
   if (options.json) {
@@ -167,7 +167,7 @@ void PrintInfo(const dds::DomainGraph& graph, const TopicSummary& topic, bool ve
 
 int Info(const TopicInfoOptions& options) {
   const GraphNames names(options);
-  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id));
+  dds::DomainGraph graph(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity());
   const auto end = SpinEnd(options);
   const auto is_there = [&] { return !FindTopic(graph, names, options.topic).IsEmpty(); };
   graph.WatchUntilComplete(end);
