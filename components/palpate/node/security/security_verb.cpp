@@ -159,7 +159,7 @@ KeystoreState CheckWhole(const SecurityOptions& options) {
   return state;
 }
 
-int Check(const SecurityOptions& options) {
+int CheckKeystore(const SecurityOptions& options) {
   const bool is_keystore = std::filesystem::exists(options.keystore / "manifest.json");
   if (!is_keystore && (!options.hosts.empty() || !options.system.empty())) {
     throw InputError({options.keystore.string()},
@@ -197,7 +197,7 @@ int Security(const SecurityOptions& options) {
   if (options.action == "init") return Init(options);
   if (options.action == "enroll") return Enroll(options);
   if (options.action == "revoke") return Revoke(options);
-  return Check(options);
+  return CheckKeystore(options);
 }
 
 app::Verb SecurityVerb() {
