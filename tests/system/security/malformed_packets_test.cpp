@@ -197,7 +197,7 @@ TEST_P(MalformedPackets, AreSurvivedForSeconds) { SurviveFor(seconds(2)); }
 TEST_P(MalformedPackets, AreSurvivedForTenMinutes) { SurviveFor(seconds(600)); }
 
 INSTANTIATE_TEST_SUITE_P(Domain, MalformedPackets, testing::Bool(),
-                         [](const auto& info) { return info.param ? "Secured" : "Plain"; });
+                         [](const auto& one) { return one.param ? "Secured" : "Plain"; });
 
 }  // namespace
 }  // namespace palpate::system_test

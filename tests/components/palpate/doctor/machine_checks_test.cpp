@@ -14,24 +14,16 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "tests/components/palpate/doctor/check_matcher.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::command {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Matcher;
 
 constexpr double kDay_s = 86400.0;
-
-Matcher<const Check&> Is(Grade grade, const std::string& finding, const std::string& remedy = {}) {
-  return AllOf(testing::Field("grade", &Check::grade, grade),
-               testing::Field("finding", &Check::finding, HasSubstr(finding)),
-               remedy.empty() ? testing::Field("remedy", &Check::remedy, "")
-                              : testing::Field("remedy", &Check::remedy, HasSubstr(remedy)));
-}
 
 TEST(DoctorMachine, TheProcessorHasFastKernelsAndTwoThreads) {
   ProcessorFacts facts{.best = InstructionSet::kAvx2,

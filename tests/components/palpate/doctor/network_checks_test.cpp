@@ -8,19 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/components/palpate/doctor/check_matcher.hpp"
+
 namespace palpate::command {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
-using testing::Matcher;
-
-Matcher<const Check&> Is(Grade grade, const std::string& finding, const std::string& remedy = {}) {
-  return AllOf(testing::Field("grade", &Check::grade, grade),
-               testing::Field("finding", &Check::finding, HasSubstr(finding)),
-               remedy.empty() ? testing::Field("remedy", &Check::remedy, "")
-                              : testing::Field("remedy", &Check::remedy, HasSubstr(remedy)));
-}
 
 NetworkInterface Interface(const std::string& name, const std::string& address, int mtu_B = 1500) {
   return {.name = name,
