@@ -14,8 +14,8 @@
 namespace palpate::app {
 
 /// The main() of a process that is a node: reads the command line, starts the log, makes the node
-/// and runs it until it ends or a signal stops it. Where NOTIFY_SOCKET is set, it says when the node
-/// is made: its model is loaded, its readers and writers are there. Returns the exit code.
+/// and runs it until it ends or a signal stops it. Where NOTIFY_SOCKET is set, it says when the
+/// node is made: its model is loaded, its readers and writers are there. Returns the exit code.
 ///
 /// `read`(argc, argv): the command, a std::optional of a NodeCommand whose settings have `dds`;
 /// nullopt: what was asked for has been printed. `make`(command): a pointer to the node, which has

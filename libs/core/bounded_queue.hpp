@@ -14,8 +14,8 @@
 namespace palpate {
 
 /// Hands items from one thread to another, in order and never more than `capacity` at once. Of the
-/// items marked as overtakable only the newest waits. Where it is full, Push() drops the oldest item
-/// and PushWhenRoom() waits.
+/// items marked as overtakable only the newest waits. Where it is full, Push() drops the oldest
+/// item and PushWhenRoom() waits.
 template <typename T>
 class BoundedQueue {
  public:
