@@ -3,6 +3,8 @@
 
 #include "libs/dds/topics.hpp"
 
+#include "libs/dds/driver_topics.hpp"
+
 namespace palpate::dds {
 
 namespace {
@@ -53,7 +55,10 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kTfStaticTopic),
           NameAndType(kExperimentPhaseTopic),
           NameAndType(kExperimentLoadTopic),
-          NameAndType(kRobotDescriptionTopic)};
+          NameAndType(kRobotDescriptionTopic),
+          NameAndType(kPackedDepthTopic),
+          NameAndType(kPackedColorTopic),
+          NameAndType(kTfTopic)};
 }
 
 }  // namespace palpate::dds

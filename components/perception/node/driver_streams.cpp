@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "components/perception/node/convert_driver.hpp"
-#include "components/perception/node/driver_topics.hpp"
 #include "components/perception/node/image_size.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
+#include "libs/dds/driver_topics.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -74,12 +74,12 @@ DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
       events_(std::move(events)),
       depth_infos_(ReaderOf(participant, dds::kDepthCameraInfoTopic, config)),
       transforms_(participant.CreateReader(dds::kTfStaticTopic)),
-      moving_transforms_(participant.CreateReader(kTfTopic)),
+      moving_transforms_(participant.CreateReader(dds::kTfTopic)),
       camera_(GivenPose(config), config.baseline_m),
       pairing_(FromSeconds(wait_s), config.pairing_tolerance_s) {
   const bool packed = config.transport == "compressed";
   if (packed) {
-    packed_depths_.emplace(ReaderOf(participant, kPackedDepthTopic, config));
+    packed_depths_.emplace(ReaderOf(participant, dds::kPackedDepthTopic, config));
   } else {
     depths_.emplace(ReaderOf(participant, dds::kDepthImageTopic, config));
   }
@@ -91,7 +91,7 @@ DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(moving_transforms_, [this] { TakeInfos(); });
   if (!config.use_color) return;
   if (packed) {
-    packed_colors_.emplace(ReaderOf(participant, kPackedColorTopic, config));
+    packed_colors_.emplace(ReaderOf(participant, dds::kPackedColorTopic, config));
   } else {
     colors_.emplace(ReaderOf(participant, dds::kColorImageTopic, config));
   }

@@ -159,7 +159,8 @@ std::vector<Verb> VerbsWithGroup() {
 }
 
 TEST(Verbs, OfAGroupRunAndAreRefusedAsOthers) {
-  EXPECT_EQ(RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"topic", "solve", "a", "--seed=42"}),
+  EXPECT_EQ(RunVerbs("palpate", "Feels.", VerbsWithGroup(),
+                     {"topic", "solve", "a", "--out=b", "--seed=42"}),
             42);
   EXPECT_EQ(ProgramRefusal([] {
               RunVerbs("palpate", "Feels.", VerbsWithGroup(), {"topic", "slove"});

@@ -30,9 +30,9 @@ security::AccessRights Of(const std::string& role, const std::string& node_names
 
 TEST(AccessRights, AComponentWritesItsOwnTopicsAlone) {
   EXPECT_THAT(Of("motion_capture").write,
-              ElementsAre("ros_discovery_info", "rt/component_status", "rt/diagnostics",
-                          "rt/perception/markers", "rt/rosout"));
-  EXPECT_THAT(Of("motion_capture").read, ElementsAre("rt/clock"));
+              ElementsAre("ros_discovery_info", "rt/clock_exchange", "rt/component_status",
+                          "rt/diagnostics", "rt/perception/markers", "rt/rosout"));
+  EXPECT_THAT(Of("motion_capture").read, ElementsAre("rt/clock", "rt/clock_exchange"));
   EXPECT_THAT(Of("force_estimation").write, Contains("rt/forces/*/wrench"));
   EXPECT_THAT(Of("force_estimation").read, Not(Contains(HasSubstr("truth"))));
 }

@@ -40,7 +40,9 @@ TEST(RosNodes, AreReadInTheLayoutsOfHumbleAndIron) {
 TEST(RosNodes, AreNotReadFromWhatIsCut) {
   const std::string whole = Announcement(24);
   for (std::size_t size = 0; size + 4 < whole.size(); ++size) {
-    EXPECT_FALSE(ParseDiscoveryInfo(whole.substr(0, size))) << size;
+    // Cut after its gid, a message of Humble is one of Iron without nodes.
+    const auto info = ParseDiscoveryInfo(whole.substr(0, size));
+    EXPECT_TRUE(!info || info->nodes.empty()) << size;
   }
   EXPECT_FALSE(ParseDiscoveryInfo(std::string("\0\1\0\0", 4) + std::string(200, '\xFF')));
 }

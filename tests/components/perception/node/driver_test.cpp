@@ -15,9 +15,9 @@
 #include <thread>
 #include <vector>
 
-#include "components/perception/node/driver_topics.hpp"
 #include "components/perception/node/node.hpp"
 #include "libs/core/file.hpp"
+#include "libs/dds/driver_topics.hpp"
 #include "libs/rgbd/png.hpp"
 #include "tests/components/perception/node/driver_fixture.hpp"
 #include "tests/components/perception/node/scripted_perception.hpp"
@@ -77,7 +77,7 @@ class PackedDriver {
     return settings;
   }
   dds::Writer<CompressedImage> Packed(const std::string& name) {
-    return {node_.participant.handle(), SettingsOf(kPackedDepthTopic.name), name, {}};
+    return {node_.participant.handle(), SettingsOf(dds::kPackedDepthTopic.name), name, {}};
   }
   dds::Writer<idl::sensor_msgs::CameraInfo> Info(const std::string& name) {
     return {node_.participant.handle(), SettingsOf(dds::kDepthCameraInfoTopic.name), name, {}};
@@ -224,7 +224,7 @@ TEST_F(DriverNodeTest, PackedImagesMakeAFrameUnderTheNamesOfTheDriver) {
 
 TEST_F(DriverNodeTest, ACameraThatMovesOnTfIsRefused) {
   StartWithDriver(DriverConfig(), false);
-  auto moving = test_.participant.CreateWriter(kTfTopic);
+  auto moving = test_.participant.CreateWriter(dds::kTfTopic);
   ASSERT_TRUE(test_.WaitFor([&] { return moving.matched() == 1; }));
   const auto send = [&](double z_m) {
     dds::Message<idl::tf2_msgs::TFMessage> message;

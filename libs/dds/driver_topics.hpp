@@ -6,14 +6,16 @@
 #include "libs/dds/topics.hpp"
 #include "sensor_msgs/msg/CompressedImage.hpp"
 
-namespace palpate::perception {
+namespace palpate::dds {
+
+// Topics of camera drivers, which AllTopics() also lists.
 
 /// Images as image_transport packs them. Drivers alone publish them.
-inline constexpr dds::Topic<idl::sensor_msgs::CompressedImage> kPackedDepthTopic{
+inline constexpr Topic<idl::sensor_msgs::CompressedImage> kPackedDepthTopic{
     "/camera/depth/image_raw/compressedDepth"};
-inline constexpr dds::Topic<idl::sensor_msgs::CompressedImage> kPackedColorTopic{
+inline constexpr Topic<idl::sensor_msgs::CompressedImage> kPackedColorTopic{
     "/camera/color/image_raw/compressed"};
 /// Frames that may move. Other programs publish them.
-inline constexpr dds::Topic<idl::tf2_msgs::TFMessage> kTfTopic{"/tf"};
+inline constexpr Topic<idl::tf2_msgs::TFMessage> kTfTopic{"/tf"};
 
-}  // namespace palpate::perception
+}  // namespace palpate::dds
