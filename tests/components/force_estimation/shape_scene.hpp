@@ -113,11 +113,11 @@ inline rgbd::SensedCloud Cast(const ShapeScene& scene, const Eigen::VectorXd& x_
 }
 
 /// Each point goes along its line of sight, independent of all others.
-inline void AddDepthNoise(std::mt19937& random, rgbd::SensedCloud* cloud) {
+inline void AddDepthNoise(std::mt19937& random, rgbd::SensedCloud* cloud, float scale = 1.0f) {
   std::normal_distribution<float> normal(0.0f, 1.0f);
   for (Eigen::Index k = 0; k < cloud->Count(); ++k) {
     const float z_m = cloud->points_m(2, k);
-    cloud->points_m.col(k) *= 1.0f + cloud->sigma_m[k] * normal(random) / z_m;
+    cloud->points_m.col(k) *= 1.0f + scale * cloud->sigma_m[k] * normal(random) / z_m;
   }
 }
 

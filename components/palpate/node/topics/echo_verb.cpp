@@ -95,14 +95,14 @@ int Echo(const EchoOptions& options) {
   const EchoPrinter printer(options, stream.topic());
   Mailbox mailbox(kMostWaiting);
   const app::StopSignal stop([&] { mailbox.Close(); });
-  stream.Start([&](const dds::RawMessage& message) { mailbox.Put(message); });
+  const auto reader = stream.Start([&](const dds::RawMessage& message) { mailbox.Put(message); });
   constexpr auto kLook = std::chrono::milliseconds(100);
   auto last = Mailbox::Clock::now();
   int shown = 0;
   bool told = false;
   while (!mailbox.closed() && (options.count == 0 || shown < options.count)) {
     const auto message = mailbox.Next(Mailbox::Clock::now() + kLook);
-    if (const std::string mismatch = stream.TakeMismatch(); !mismatch.empty()) {
+    if (const std::string mismatch = stream.TakeMismatch(*reader); !mismatch.empty()) {
       fmt::print(stderr, "palpate: warning: {}\n", mismatch);
     }
     if (!message) {

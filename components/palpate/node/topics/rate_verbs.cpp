@@ -196,14 +196,14 @@ int Measure(const RateOptions& options, const MakeMeter& make) {
   const std::unique_ptr<Meter> meter = make(options, stream.topic());
   Pause pause;
   const app::StopSignal stop([&] { pause.End(); });
-  stream.Start([&](const dds::RawMessage& message) { meter->Take(message); });
+  const auto reader = stream.Start([&](const dds::RawMessage& message) { meter->Take(message); });
   if (!options.json) fmt::print("Subscribed to [{}]\n", stream.topic().name);
   Clock::time_point next = Clock::now();
   Clock::time_point last = next;
   for (int shown = 0; options.count == 0 || shown < options.count;) {
     next += kPeriod;
     if (!pause.Wait(next)) break;
-    if (const std::string mismatch = stream.TakeMismatch(); !mismatch.empty()) {
+    if (const std::string mismatch = stream.TakeMismatch(*reader); !mismatch.empty()) {
       fmt::print(stderr, "palpate: warning: {}\n", mismatch);
     }
     if (auto report = meter->Next()) {

@@ -127,19 +127,19 @@ TopicStream::TopicStream(const StreamOptions& options)
   topic_ = Describe(WaitForPublisher(graph_, names, options_), options_);
 }
 
-void TopicStream::Start(OnMessage on_message) {
-  reader_ = std::make_unique<dds::RawReader>(
+std::unique_ptr<dds::RawReader> TopicStream::Start(OnMessage on_message) const {
+  return std::make_unique<dds::RawReader>(
       graph_.participant(), topic_.topic,
       [on_message = std::move(on_message)](dds::RawMessage message) { on_message(message); });
 }
 
-std::string TopicStream::TakeMismatch() {
-  if (mismatch_told_ || !reader_ || !reader_->has_incompatible_writer()) return {};
+std::string TopicStream::TakeMismatch(const dds::RawReader& reader) {
+  if (mismatch_told_ || !reader.has_incompatible_writer()) return {};
   mismatch_told_ = true;
   return fmt::format(
       "a publisher of '{}' offers incompatible QoS ({}): its messages do not come; palpate topic "
       "info -v {} shows it",
-      topic_.name, dds::PolicyName(reader_->last_incompatible_policy()), topic_.name);
+      topic_.name, dds::PolicyName(reader.last_incompatible_policy()), topic_.name);
 }
 
 }  // namespace palpate::command

@@ -41,18 +41,18 @@ class TopicStream {
 
   const ReadableTopic& topic() const { return topic_; }
 
-  /// Begins to read. `on_message` is called from DDS's threads, one call at a time.
-  void Start(OnMessage on_message);
+  /// Reads until the reader goes, which must be before what `on_message` refers to: it is called
+  /// from DDS's threads, one call at a time. Not longer than this object.
+  [[nodiscard]] std::unique_ptr<dds::RawReader> Start(OnMessage on_message) const;
 
-  /// What is wrong with the match of publishers and this reader since the last call; "" mostly.
-  std::string TakeMismatch();
+  /// What is wrong with the match of publishers and the reader since the last call; "" mostly.
+  std::string TakeMismatch(const dds::RawReader& reader);
 
  private:
   StreamOptions options_;
   dds::DomainGraph graph_;
   ReadableTopic topic_;
   bool mismatch_told_ = false;
-  std::unique_ptr<dds::RawReader> reader_;
 };
 
 }  // namespace palpate::command
