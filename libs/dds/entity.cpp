@@ -5,25 +5,15 @@
 
 namespace palpate::dds {
 
-namespace {
-
-std::string RemedyOf(dds_return_t result) {
-  return result == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY
-             ? " (the permissions of this identity lack it: `palpate security check` says which "
-               "it has)"
-             : "";
-}
-
-}  // namespace
-
 dds_entity_t Created(dds_entity_t handle, const std::string& what) {
+  if (handle >= 0) return handle;
+  const std::string refused = "cannot create " + what + ": " + dds_strretcode(-handle);
   if (handle == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {
-    throw NotAllowed("cannot create " + what + ": " + dds_strretcode(-handle));
+    throw NotAllowed(refused +
+                     " (the permissions of this identity lack it: `palpate security check` says "
+                     "which it has)");
   }
-  if (handle < 0) {
-    throw RunError("cannot create " + what + ": " + dds_strretcode(-handle) + RemedyOf(handle));
-  }
-  return handle;
+  throw RunError(refused);
 }
 
 }  // namespace palpate::dds

@@ -121,7 +121,22 @@ TEST_F(LaunchCommand, ADryRunPrintsWhatWouldBeStarted) {
   EXPECT_THAT(Log(), HasSubstr("config/cyclonedds/one_host.xml"));
 }
 
+TEST_F(LaunchCommand, GivesAComponentItsSettingsNamesAndDomain) {
+  folder_.Write("cam.yaml", "");
+  const std::string system =
+      System({"{name: cam, component: capture, settings: cam.yaml, arguments: [--camera, x], "
+              "remap: [\"/a:=/b\"], set: {queue: 3}}"},
+             "domain: 5\nnamespace: /left\n");
+  EXPECT_EQ(RunLaunch({system, "--dry-run", "--set", "cam.queue=4"}), 0);
+  EXPECT_THAT(Log(),
+              HasSubstr("/palpate-capture --camera x --config " + (folder_ / "cam.yaml").string() +
+                        " --set queue=3 --set queue=4 --remap __ns:=/left --remap /a:=/b "
+                        "--domain 5\n"));
+}
+
 TEST_F(LaunchCommand, RefusesWhatItCannotRead) {
+  EXPECT_EQ(RunLaunch({System({"{name: a, component: capture, settings: none.yaml}"})}), 2);
+  EXPECT_THAT(Log(), HasSubstr("no settings file"));
   EXPECT_EQ(RunLaunch({"no_such_system"}), 2);
   EXPECT_EQ(RunLaunch({"demo", "robot=rod"}), 2);
   EXPECT_THAT(Log(), HasSubstr("NAME:=VALUE"));

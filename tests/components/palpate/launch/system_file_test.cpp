@@ -126,14 +126,15 @@ TEST_F(SystemFiles, RefuseAnOrderThatCannotBe) {
 TEST_F(SystemFiles, RefuseATransportThatDoesNotFitTheHosts) {
   const std::string process = "processes: [{name: a, component: capture}]";
   const std::string other = "processes: [{name: b, component: perception}]";
-  EXPECT_THAT(Refusal("name: s\ntransport: one_host\nhosts:\n  - {name: x, " + process +
-                      "}\n  - {name: y, " + other + "}\n"),
+  EXPECT_THAT(Refusal("name: s\ntransport: one_host\nhosts:\n  - {name: left, " + process +
+                      "}\n  - {name: right, " + other + "}\n"),
               AllOf(HasSubstr("system.yaml:2:"), HasSubstr("stays on loopback")));
-  EXPECT_THAT(Refusal("name: s\ntransport: lossy_link\nhosts:\n  - {name: x, " + process + "}\n"),
-              HasSubstr("'address' is missing"));
-  EXPECT_THAT(Refusal("name: s\nhosts:\n  - {name: x, address: there, " + process + "}\n"),
+  EXPECT_THAT(
+      Refusal("name: s\ntransport: lossy_link\nhosts:\n  - {name: left, " + process + "}\n"),
+      HasSubstr("'address' is missing"));
+  EXPECT_THAT(Refusal("name: s\nhosts:\n  - {name: left, address: there, " + process + "}\n"),
               HasSubstr("must be an IPv4 address"));
-  EXPECT_THAT(Refusal("name: s\ntransport: wlan\nhosts:\n  - {name: x, " + process + "}\n"),
+  EXPECT_THAT(Refusal("name: s\ntransport: wlan\nhosts:\n  - {name: left, " + process + "}\n"),
               HasSubstr("did you mean 'lan'?"));
 }
 
@@ -191,45 +192,37 @@ TEST_F(SystemFiles, NameEveryComponentOfTheBuild) {
 
 TEST_F(SystemFiles, BecomeCommandLines) {
   SystemFile system = Read(
-      "name: s\ndomain: 5\nnamespace: /left\nhosts:\n  - name: h\n    processes:\n"
-      "      - name: cam\n        component: capture\n        arguments: [--camera, x]\n"
-      "        remap: [\"/a:=/b\"]\n        set: {queue: 3}\n"
-      "      - {name: shell, program: sh, arguments: [-c, \"echo 'a'\"]}\n");
+      "name: s\ndomain: 5\nhosts:\n  - name: h\n    processes:\n"
+      "      - {name: cam, component: capture, set: {queue: 3}}\n"
+      "      - {name: shell, program: sh, arguments: [-c, \"echo 'a'\"], nice: 4}\n");
   ApplySet("cam.queue=4", &system.hosts[0]);
-  const auto processes = MakeLaunchPlan(system, system.hosts[0]);
-  EXPECT_EQ(processes[0].command.program.filename(), "palpate-capture");
-  EXPECT_THAT(processes[0].command.arguments,
-              ElementsAre("--camera", "x", "--set", "queue=3", "--set", "queue=4", "--remap",
-                          "__ns:=/left", "--remap", "/a:=/b", "--domain", "5"));
-  EXPECT_EQ(processes[1].command.environment.at("ROS_DOMAIN_ID"), "5");
-  EXPECT_THAT(ShellLine(processes[1].command), testing::EndsWith("/sh -c 'echo '\\''a'\\'''"));
+  EXPECT_THAT(system.hosts[0].processes[0].set, ElementsAre("queue=3", "queue=4"));
   EXPECT_THAT(MessageOf([&] { ApplySet("cm.queue=4", &system.hosts[0]); }),
               HasSubstr("did you mean 'cam'?"));
   EXPECT_THAT(MessageOf([&] { ApplySet("queue=4", &system.hosts[0]); }),
               HasSubstr("PROCESS.KEY=VALUE"));
   EXPECT_THAT(MessageOf([&] { ApplySet("shell.a=4", &system.hosts[0]); }),
               HasSubstr("is no component"));
+  system.hosts[0].processes.erase(system.hosts[0].processes.begin());
+  const LaunchedProcess shell = MakeLaunchPlan(system, system.hosts[0]).at(0);
+  EXPECT_EQ(shell.command.environment.at("ROS_DOMAIN_ID"), "5");
+  EXPECT_EQ(shell.command.nice, 4);
+  EXPECT_THAT(ShellLine(shell.command), testing::EndsWith("/sh -c 'echo '\\''a'\\'''"));
 }
 
-TEST_F(SystemFiles, RefuseProgramsAndSettingsThatAreNotThere) {
-  const auto plan = [&](const std::string& process) {
-    return MessageOf([&] {
-      const SystemFile system =
-          Read("name: s\nhosts:\n  - name: h\n    processes:\n      - " + process + "\n");
-      MakeLaunchPlan(system, system.hosts[0]);
-    });
-  };
-  EXPECT_THAT(plan("{name: a, program: no_such_program}"),
+TEST_F(SystemFiles, RefuseAProgramThatIsNotThere) {
+  const SystemFile system = Read(
+      "name: s\nhosts:\n  - name: h\n    processes:\n"
+      "      - {name: a, program: no_such_program}\n");
+  EXPECT_THAT(MessageOf([&] { MakeLaunchPlan(system, system.hosts[0]); }),
               AllOf(HasSubstr("system.yaml:5:"), HasSubstr("no program 'no_such_program'")));
-  EXPECT_THAT(plan("{name: a, component: capture, settings: none.yaml}"),
-              HasSubstr("no settings file"));
 }
 
 TEST_F(SystemFiles, TellTheProcessesWhereTheOtherHostsAre) {
   const SystemFile system = Read(
       "name: s\ntransport: lossy_link\npeers: [10.0.0.9]\nsecurity: keys\nhosts:\n"
-      "  - {name: x, address: 10.0.0.1, processes: [{name: a, component: capture}]}\n"
-      "  - {name: y, address: 10.0.0.2, interface: eth1, "
+      "  - {name: left, address: 10.0.0.1, processes: [{name: a, component: capture}]}\n"
+      "  - {name: right, address: 10.0.0.2, interface: eth1, "
       "processes: [{name: b, component: perception}]}\n");
   if (FindProjectFile("config/cyclonedds/lossy_link.xml").empty()) {
     GTEST_SKIP() << "config/cyclonedds/lossy_link.xml is not there";
@@ -244,17 +237,17 @@ TEST_F(SystemFiles, TellTheProcessesWhereTheOtherHostsAre) {
 
 TEST_F(SystemFiles, OneOfSeveralHostsIsChosenByNameOrAddress) {
   const auto text = [](const std::string& address) {
-    return "name: s\nhosts:\n  - {name: x, processes: [{name: a, component: capture}]}\n"
-           "  - {name: y, address: " +
+    return "name: s\nhosts:\n  - {name: left, processes: [{name: a, component: capture}]}\n"
+           "  - {name: right, address: " +
            address + ", processes: [{name: b, component: perception}]}\n";
   };
   SystemFile system = Read(text("192.0.2.77"));
-  EXPECT_EQ(ChooseHost(system, "x").name, "x");
+  EXPECT_EQ(ChooseHost(system, "left").name, "left");
   EXPECT_THAT(MessageOf([&] { ChooseHost(system, "z"); }),
-              AllOf(HasSubstr("unknown host 'z'"), HasSubstr("x, y")));
+              AllOf(HasSubstr("unknown host 'z'"), HasSubstr("left, right")));
   EXPECT_THAT(MessageOf([&] { ChooseHost(system, ""); }), HasSubstr("--host is required"));
   SystemFile here = Read(text("127.0.0.1"));
-  EXPECT_EQ(ChooseHost(here, "").name, "y");
+  EXPECT_EQ(ChooseHost(here, "").name, "right");
 }
 
 }  // namespace

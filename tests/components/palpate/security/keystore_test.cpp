@@ -235,7 +235,9 @@ TEST_F(KeystoreTest, PermissionsThatAreNotThoseOfTheTableAreFound) {
   const Answer check = RunVerb({"check", keystore()});
   EXPECT_EQ(check.code, 1);
   EXPECT_THAT(check.text, HasSubstr("for writing has rt/camera/color/camera_info"));
-  EXPECT_THAT(check.text, HasSubstr("for reading has rt/clock, lacks ros_discovery_info, rt/*"));
+  EXPECT_THAT(
+      check.text,
+      HasSubstr("for reading has rt/clock, rt/clock_exchange, lacks ros_discovery_info, rt/*"));
 }
 
 TEST_F(KeystoreTest, WrongUsageIsRefused) {
