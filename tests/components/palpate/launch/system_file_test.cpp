@@ -224,9 +224,6 @@ TEST_F(SystemFiles, TellTheProcessesWhereTheOtherHostsAre) {
       "  - {name: left, address: 10.0.0.1, processes: [{name: a, component: capture}]}\n"
       "  - {name: right, address: 10.0.0.2, interface: eth1, "
       "processes: [{name: b, component: perception}]}\n");
-  if (FindProjectFile("config/cyclonedds/lossy_link.xml").empty()) {
-    GTEST_SKIP() << "config/cyclonedds/lossy_link.xml is not there";
-  }
   const auto x = MiddlewareEnvironment(system, system.hosts[0]);
   EXPECT_THAT(x.at("CYCLONEDDS_URI"), testing::EndsWith("config/cyclonedds/lossy_link.xml"));
   EXPECT_EQ(x.at("PALPATE_PEERS"), "10.0.0.2,10.0.0.9");
