@@ -178,7 +178,8 @@ TEST_F(RecordedFormats, CompressedDepthWithoutItsHeaderIsLeftOutAndTold) {
 
 TEST_F(RecordedFormats, RvlIsRefusedWithTheRemedy) {
   AddPackedDepth("16UC1; compressedDepth rvl", DepthHeader(0, 0));
-  EXPECT_THAT(MessageOf([&] { Make(); }), HasSubstr("is packed as RVL, which is not read; take PNG"));
+  EXPECT_THAT(MessageOf([&] { Make(); }),
+              HasSubstr("is packed as RVL, which is not read; take PNG"));
 }
 
 TEST_F(RecordedFormats, PackedColourGoesWithDepth) {
