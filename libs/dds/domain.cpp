@@ -43,10 +43,14 @@ std::string EffectiveSettings() {
   return settings + "," + InterfaceElement(name);
 }
 
-std::shared_ptr<Entity> ApplyDomainSettings(uint32_t domain_id) {
+std::shared_ptr<Entity> ApplyDomainSettings(uint32_t domain_id, bool is_secured) {
   const std::string settings = EffectiveSettings();
-  const std::string refusal =
-      RefusalOf(ReadDomainSettings(settings, domain_id), NetworkInterfaces());
+  DomainSettings read = ReadDomainSettings(settings, domain_id);
+  if (is_secured && !read.security) {
+    read.security = true;
+    read.security_where.file = "dds.security";
+  }
+  const std::string refusal = RefusalOf(read, NetworkInterfaces());
   if (!refusal.empty()) throw InputError(refusal);
   static std::mutex mutex;
   // Deleting a domain deletes its participants, so all of them share it.

@@ -22,8 +22,9 @@ std::string EffectiveSettings();
 /// Applies BuiltInDomainSettings() to a domain of this process, unless CYCLONEDDS_URI names others
 /// or the process has joined the domain already. Keep what it returns as long as anything of the
 /// domain lives; nullptr: nothing was applied. To be called before the first participant of the
-/// domain. Safe from any thread. Throws RunError where DDS refuses, InputError for settings of
+/// domain. `is_secured`: participants of this process have DDS Security by other settings than
+/// these. Safe from any thread. Throws RunError where DDS refuses, InputError for settings of
 /// CYCLONEDDS_URI that RefusalOf() refuses.
-std::shared_ptr<Entity> ApplyDomainSettings(uint32_t domain_id);
+std::shared_ptr<Entity> ApplyDomainSettings(uint32_t domain_id, bool is_secured = false);
 
 }  // namespace palpate::dds

@@ -113,7 +113,7 @@ DomainGraph::DomainGraph(std::uint32_t domain_id, NeedsIdl needs_idl,
                          const SecuritySettings& security)
     : domain_id_(domain_id),
       needs_idl_(std::move(needs_idl)),
-      domain_(ApplyDomainSettings(domain_id)),
+      domain_(ApplyDomainSettings(domain_id, security.enabled())),
       participant_(CreateParticipant(domain_id, security)),
       guard_(dds_create_guardcondition(participant_.handle()), "a guard condition"),
       participant_reader_(BuiltInReader(participant_.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT)),

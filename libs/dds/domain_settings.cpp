@@ -143,7 +143,8 @@ class SettingsReader {
     }
     if (path == "discovery/peers/peer") TakePeers(Attribute(element, "Address"), element);
     if (path == "sharedmemory/enable") {
-      settings_.shared_memory = Lower(Content(element)) == "true";
+      const std::string value = Lower(Content(element));
+      settings_.shared_memory = value == "true" || value == "1";
       settings_.shared_memory_where = Where(element);
     }
     if (path == "security" || path == "omgsecurity" || path == "ddssecurity") {

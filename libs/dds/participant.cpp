@@ -36,7 +36,7 @@ Participant::Participant(const ParticipantSettings& settings, TopicTable table)
     : domain_id_(settings.domain_id),
       table_(WithRawKept(table, settings.remote_raw)),
       names_(settings.node_name, settings.node_namespace, settings.remap, table_),
-      domain_(ApplyDomainSettings(settings.domain_id)),
+      domain_(ApplyDomainSettings(settings.domain_id, settings.security.enabled())),
       entity_(CreateParticipant(settings.domain_id, settings.security)),
       graph_(entity_.handle(), names_.node_namespace(), names_.node_name(), settings.gid_layout),
       clock_(std::make_shared<RosClock>()),

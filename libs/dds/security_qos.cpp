@@ -5,14 +5,10 @@
 
 #include <dlfcn.h>
 
-#include <cstdlib>
-#include <string_view>
 #include <system_error>
 
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
-#include "libs/core/text.hpp"
 #include "libs/dds/dds_reports.hpp"
 #include "libs/dds/qos.hpp"
 #include "libs/security/material.hpp"
@@ -49,54 +45,10 @@ void SetFile(dds_qos_t* qos, const char* name, const std::filesystem::path& file
   dds_qset_prop(qos, name, ("file:" + file.string()).c_str());
 }
 
-/// The settings that CYCLONEDDS_URI names, a list of XML texts and files; what cannot be read is
-/// for Cyclone DDS to refuse.
-bool EnvironmentWantsSharedMemory() {
-  const char* uri = std::getenv("CYCLONEDDS_URI");
-  std::string_view rest = uri == nullptr ? "" : uri;
-  while (!rest.empty()) {
-    const std::size_t comma = rest.front() == '<' ? rest.npos : rest.find(',');
-    std::string_view item = rest.substr(0, comma);
-    rest = comma == rest.npos ? std::string_view() : rest.substr(comma + 1);
-    if (item.starts_with('<')) {
-      if (WantsSharedMemory(std::string(item))) return true;
-      continue;
-    }
-    constexpr std::string_view kFile = "file://";
-    if (item.starts_with(kFile)) item.remove_prefix(kFile.size());
-    std::error_code error;
-    const std::filesystem::path file(item);
-    if (std::filesystem::is_regular_file(file, error) && WantsSharedMemory(ReadFile(file))) {
-      return true;
-    }
-  }
-  return false;
-}
-
-std::string WithoutComments(std::string xml) {
-  std::size_t begin = 0;
-  while ((begin = xml.find("<!--")) != xml.npos) {
-    const std::size_t end = xml.find("-->", begin);
-    xml.erase(begin, end == xml.npos ? xml.npos : end + 3 - begin);
-  }
-  return xml;
-}
-
 }  // namespace
-
-bool WantsSharedMemory(const std::string& xml) {
-  const std::string section = security::TagText(WithoutComments(xml), "SharedMemory");
-  const std::string value = security::TagText(section, "Enable");
-  return value.find("true") != value.npos || value.find('1') != value.npos;
-}
 
 void SetSecurity(const SecuritySettings& settings, dds_qos_t* qos) {
   if (!settings.enabled()) return;
-  if (EnvironmentWantsSharedMemory()) {
-    throw InputError(
-        "CYCLONEDDS_URI turns shared memory on, which sends messages past the encryption: set "
-        "SharedMemory/Enable to false, or start without security");
-  }
   const security::Material material =
       security::LoadMaterial(settings.keystore, settings.identity, WallNow_ns() / 1'000'000'000);
   SetPlugin(qos, "auth", "dds_security_auth", "authentication");

@@ -23,15 +23,12 @@ struct SecuritySettings {
 
 /// Makes the participant that is created with `qos` a secured one: authentication, encryption and
 /// access control by the plugins of Cyclone DDS. Nothing where `settings` are not enabled. Throws
-/// InputError with file, reason and remedy where the files do not allow it (CheckMaterial), and
-/// where CYCLONEDDS_URI asks for shared memory, which would bypass the encryption.
+/// InputError with file, reason and remedy where the files do not allow it (CheckMaterial). Shared
+/// memory, which would bypass the encryption, is refused before: ApplyDomainSettings().
 void SetSecurity(const SecuritySettings& settings, dds_qos_t* qos);
 
 /// A participant as ROS 2 expects it, secured where `settings` are enabled. Throws as SetSecurity
 /// does, InputError for a domain that cannot be secured, and RunError where DDS refuses.
 Entity CreateParticipant(std::uint32_t domain_id, const SecuritySettings& settings);
-
-/// Whether settings of Cyclone DDS (XML) turn shared memory on.
-bool WantsSharedMemory(const std::string& xml);
 
 }  // namespace palpate::dds

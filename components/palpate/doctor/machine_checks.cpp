@@ -5,6 +5,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace palpate::command {
 
 namespace {
@@ -75,35 +78,28 @@ Check CheckSecurity(const SecurityFacts& facts) {
                : result(Grade::kOk, "off: any process of the network may read and write", {});
   }
   const std::string folder = facts.folder.string();
-  const std::string renew = "palpate security init --help";
-  if (!facts.folder_exists) return result(Grade::kFailure, folder + " is not there", renew);
-  if (facts.certificates.empty()) {
-    return result(Grade::kFailure, folder + " has no certificate (*.pem)", renew);
+  if (!facts.trouble.empty()) {
+    return result(Grade::kFailure, facts.trouble, "palpate security init --help");
   }
-  if (!facts.open_keys.empty()) {
-    const std::string key = facts.open_keys.front().string();
-    return result(Grade::kFailure, key + " is a private key that other users can read",
-                  "chmod 600 " + key);
+  std::vector<security::Finding> findings = facts.state.findings;
+  const IdentityState* first = nullptr;
+  for (const IdentityState& identity : facts.state.identities) {
+    findings.insert(findings.end(), identity.findings.begin(), identity.findings.end());
+    if (first == nullptr || identity.end_s < first->end_s) first = &identity;
   }
-  const CertificateFacts* first = nullptr;
-  for (const CertificateFacts& certificate : facts.certificates) {
-    if (!certificate.valid_for_s) {
-      return result(Grade::kFailure,
-                    certificate.file.string() + " cannot be read as a certificate (openssl x509)",
-                    renew);
-    }
-    if (first == nullptr || *certificate.valid_for_s < *first->valid_for_s) first = &certificate;
+  std::stable_sort(findings.begin(), findings.end(), [](const auto& a, const auto& b) {
+    return a.severity == Severity::kError && b.severity != Severity::kError;
+  });
+  if (!findings.empty()) {
+    const security::Finding& worst = findings.front();
+    return result(worst.severity == Severity::kError ? Grade::kFailure : Grade::kWarning,
+                  worst.file.string() + " " + worst.problem, worst.remedy);
   }
-  const double days = *first->valid_for_s / kDay_s;
-  if (days < 0.0) {
-    return result(Grade::kFailure,
-                  fmt::format("{} expired {:.0f} days ago", first->file.string(), -days), renew);
-  }
-  return result(
-      days < 30.0 ? Grade::kWarning : Grade::kOk,
-      fmt::format("{} certificates in {}, the first expires in {:.0f} days ({})",
-                  facts.certificates.size(), folder, days, first->file.filename().string()),
-      days < 30.0 ? renew : std::string());
+  const double days = static_cast<double>(first->end_s - facts.now_s) / kDay_s;
+  return result(Grade::kOk,
+                fmt::format("{} identities in {}, the first one, {}, ends in {:.0f} days",
+                            facts.state.identities.size(), folder, first->name, days),
+                {});
 }
 
 Check CheckCameras(const std::vector<CameraFacts>& cameras, bool needed) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "components/palpate/doctor/check.hpp"
+#include "components/palpate/security/keystore_check.hpp"
 #include "libs/core/instruction_set.hpp"
 #include "libs/core/status.hpp"
 
@@ -35,20 +36,15 @@ struct DiskFacts {
 /// Room for recordings in the current folder: raw images need some 60 MB/s.
 Check CheckDisk(const DiskFacts& facts);
 
-struct CertificateFacts {
-  std::filesystem::path file;
-  std::optional<double> valid_for_s;  ///< negative: expired; nullopt: cannot be read
-};
-
 struct SecurityFacts {
   bool is_on = false;            ///< the processes are to be secured
-  std::filesystem::path folder;  ///< empty: none given
-  bool folder_exists = false;
-  std::vector<CertificateFacts> certificates;
-  std::vector<std::filesystem::path> open_keys;  ///< private keys that others may read
+  std::filesystem::path folder;  ///< a keystore, or the files of a host; empty: none given
+  std::string trouble;           ///< why it cannot be read; empty: `state` says what is there
+  KeystoreState state;
+  std::int64_t now_s = 0;  ///< since 1970
 };
 
-/// The files of DDS Security: there, valid for another month, and keys private.
+/// The files of DDS Security, as `palpate security check` judges them.
 Check CheckSecurity(const SecurityFacts& facts);
 
 struct CameraFacts {

@@ -3,22 +3,15 @@
 
 #include "components/palpate/doctor/machine_facts.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
-#include <memory>
-#include <set>
-#include <sstream>
 #include <thread>
 
 #include "components/capture/camera_list.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
 #include "libs/robot/calibration_file.hpp"
 
@@ -35,47 +28,6 @@ std::string FirstWordOf(const std::string& file) {
   std::string word;
   std::ifstream(file) >> word;
   return word;
-}
-
-std::string InQuotes(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-/// What a shell command prints; empty where it fails.
-std::string OutputOf(const std::string& command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string output;
-  std::array<char, 256> buffer{};
-  while (pipe && std::fgets(buffer.data(), buffer.size(), pipe.get())) output += buffer.data();
-  return output;
-}
-
-/// "notAfter=2027-11-28 15:00:00Z", as openssl prints it.
-std::optional<double> SecondsUntil(const std::string& text) {
-  std::tm time{};
-  if (strptime(text.c_str(), "notAfter=%Y-%m-%d %H:%M:%SZ", &time) == nullptr) return std::nullopt;
-  return std::difftime(timegm(&time), std::time(nullptr));
-}
-
-std::string ReadAll(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-void ReadSecurityFile(const std::filesystem::path& file, SecurityFacts* facts) {
-  const std::string text = ReadAll(file);
-  if (text.find("-----BEGIN CERTIFICATE-----") != text.npos) {
-    facts->certificates.push_back(
-        {file, SecondsUntil(OutputOf("openssl x509 -noout -enddate -dateopt iso_8601 -in " +
-                                     InQuotes(file.string()) + " 2>/dev/null"))});
-  }
-  if (text.find("PRIVATE KEY-----") == text.npos) return;
-  struct stat status {};
-  const bool is_open = stat(file.c_str(), &status) == 0 && (status.st_mode & S_IROTH) != 0;
-  if (is_open) facts->open_keys.push_back(file);
 }
 
 }  // namespace
@@ -97,20 +49,15 @@ DiskFacts ReadDisk(const std::filesystem::path& folder) {
 SecurityFacts ReadSecurity(const std::filesystem::path& folder, bool is_on) {
   SecurityFacts facts{.is_on = is_on,
                       .folder = folder,
-                      .folder_exists = false,
-                      .certificates = {},
-                      .open_keys = {}};
-  std::error_code error;
-  facts.folder_exists = !folder.empty() && std::filesystem::is_directory(folder, error);
-  if (!facts.folder_exists) return facts;
-  std::set<std::filesystem::path> files;
-  for (std::filesystem::recursive_directory_iterator it(folder, error), end; !error && it != end;
-       it.increment(error)) {
-    const bool is_pem = it->path().extension() == ".pem" || it->path().extension() == ".crt" ||
-                        it->path().extension() == ".key";
-    if (is_pem) files.insert(it->path());
+                      .trouble = {},
+                      .state = {},
+                      .now_s = WallNow_ns() / 1'000'000'000};
+  if (folder.empty()) return facts;
+  try {
+    facts.state = CheckHostFiles(folder, {}, facts.now_s);
+  } catch (const InputError& error) {
+    facts.trouble = error.what();
   }
-  for (const auto& file : files) ReadSecurityFile(file, &facts);
   return facts;
 }
 

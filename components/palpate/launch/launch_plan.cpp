@@ -3,8 +3,6 @@
 
 #include "components/palpate/launch/launch_plan.hpp"
 
-#include <arpa/inet.h>
-#include <ifaddrs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "components/palpate/launch/transport.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/names.hpp"
+#include "libs/core/network_interfaces.hpp"
 
 namespace palpate::command {
 
@@ -31,16 +30,9 @@ std::string NameOfComputer() {
 
 std::set<std::string> AddressesOfComputer() {
   std::set<std::string> addresses;
-  ifaddrs* first = nullptr;
-  if (getifaddrs(&first) != 0) return addresses;
-  for (const ifaddrs* entry = first; entry != nullptr; entry = entry->ifa_next) {
-    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
-    const auto* address = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
-    std::array<char, INET_ADDRSTRLEN> text{};
-    inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
-    addresses.insert(text.data());
+  for (const NetworkInterface& interface : NetworkInterfaces()) {
+    addresses.insert(interface.addresses.begin(), interface.addresses.end());
   }
-  freeifaddrs(first);
   return addresses;
 }
 

@@ -5,7 +5,6 @@
 
 #include <set>
 
-#include "libs/core/config_reader.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 
@@ -13,42 +12,25 @@ namespace palpate::command {
 
 namespace {
 
-std::string TextAt(const ConfigNode& map, const std::string& key) {
-  const ConfigNode* node = map.Find(key);
-  return node == nullptr ? "" : ReadText(*node);
+/// The value of "key=value" among the settings of a process, the last one; empty: not set.
+std::string SettingOf(const ProcessPlan& process, const std::string& key) {
+  std::string value;
+  for (const std::string& setting : process.set) {
+    if (setting.starts_with(key + "=")) value = setting.substr(key.size() + 1);
+  }
+  return value;
 }
 
-std::vector<std::string> TextsAt(const ConfigNode& map, const std::string& key) {
-  std::vector<std::string> texts;
-  const ConfigNode* list = map.Find(key);
-  if (list == nullptr) return texts;
-  for (const ConfigNode& item : list->items) texts.push_back(ReadText(item));
-  return texts;
-}
-
-const std::vector<ConfigNode>& ItemsAt(const ConfigNode& map, const std::string& key) {
-  const ConfigNode* list = map.Find(key);
-  if (list == nullptr || list->kind != ConfigNode::Kind::kList) {
-    Refuse(map, "needs '" + key + "', a list (docs of `palpate launch`)");
-  }
-  return list->items;
-}
-
-Identity IdentityOf(const ConfigNode& process, const std::string& component) {
-  Identity identity{.name = component, .role = component, .host = {}, .remap = {}};
-  const ConfigNode* settings = process.Find("set");
-  if (settings != nullptr) {
-    const std::string name = TextAt(*settings, "dds.identity");
-    const std::string node_namespace = TextAt(*settings, "dds.node_namespace");
-    if (!name.empty()) identity.name = name;
-    if (!node_namespace.empty()) identity.node_namespace = node_namespace;
-  }
-  const ConfigNode* environment = process.Find("environment");
-  if (environment != nullptr) {
-    const std::string name = TextAt(*environment, "PALPATE_SECURITY_IDENTITY");
-    if (!name.empty()) identity.name = name;
-  }
-  identity.remap = TextsAt(process, "remap");
+Identity IdentityOf(const ProcessPlan& process, const std::string& node_namespace) {
+  Identity identity{
+      .name = process.component, .role = process.component, .host = {}, .remap = process.remap};
+  if (!node_namespace.empty()) identity.node_namespace = node_namespace;
+  const std::string own_namespace = SettingOf(process, "dds.node_namespace");
+  if (!own_namespace.empty()) identity.node_namespace = own_namespace;
+  const std::string name = SettingOf(process, "dds.identity");
+  if (!name.empty()) identity.name = name;
+  const auto variable = process.environment.find("PALPATE_SECURITY_IDENTITY");
+  if (name.empty() && variable != process.environment.end()) identity.name = variable->second;
   return identity;
 }
 
@@ -73,22 +55,19 @@ Identity ParseIdentity(const std::string& text) {
   return identity;
 }
 
-std::vector<Identity> IdentitiesOfSystem(const ConfigNode& system) {
-  const std::string node_namespace = TextAt(system, "namespace");
+std::vector<Identity> IdentitiesOfSystem(const SystemFile& system) {
   std::vector<Identity> identities;
   std::set<std::string> names;
-  for (const ConfigNode& host : ItemsAt(system, "hosts")) {
-    for (const ConfigNode& process : ItemsAt(host, "processes")) {
-      const std::string component = TextAt(process, "component");
-      if (component.empty()) continue;  // another program
-      Identity identity = IdentityOf(process, component);
-      identity.host = TextAt(host, "name");
-      if (identity.node_namespace == "/" && !node_namespace.empty()) {
-        identity.node_namespace = node_namespace;
-      }
+  for (const HostPlan& host : system.hosts) {
+    for (const ProcessPlan& process : host.processes) {
+      if (process.component.empty()) continue;  // another program
+      Identity identity = IdentityOf(process, system.node_namespace);
+      identity.host = host.name;
       if (!names.insert(identity.name).second) {
-        Refuse(process, "is a second process with the identity '" + identity.name +
-                            "': give it one of its own, set: {dds.identity: NAME}");
+        throw InputError(process.where, "process '" + process.name +
+                                            "' is a second process with the identity '" +
+                                            identity.name +
+                                            "': give it one of its own, set: {dds.identity: NAME}");
       }
       identities.push_back(identity);
     }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/palpate/security/manifest.hpp"
-#include "libs/core/config_node.hpp"
+#include "components/palpate/system/system_file.hpp"
 
 namespace palpate::command {
 
@@ -18,6 +18,6 @@ Identity ParseIdentity(const std::string& text);
 /// The identities of a system file: one for each process of a component, named after the component,
 /// or by its setting dds.identity; with the namespace and remapping of the process. Throws
 /// InputError at the place of two processes with one name.
-std::vector<Identity> IdentitiesOfSystem(const ConfigNode& system);
+std::vector<Identity> IdentitiesOfSystem(const SystemFile& system);
 
 }  // namespace palpate::command

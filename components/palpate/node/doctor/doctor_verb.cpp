@@ -7,11 +7,14 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "components/palpate/doctor/machine_facts.hpp"
 #include "components/palpate/doctor/network_checks.hpp"
 #include "components/palpate/doctor/system_facts.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/launch/launch_plan.hpp"
+#include "components/palpate/launch/transport.hpp"
 #include "components/palpate/node/doctor/domain_facts.hpp"
 #include "components/palpate/node/live/terminal.hpp"
 #include "libs/app/node_options.hpp"
@@ -19,38 +22,27 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/dds/domain_settings.hpp"
-#include "libs/dds/host.hpp"
 
 namespace palpate::command {
 
 namespace {
 
-SystemFacts ReadSystem(const DoctorOptions& options) {
-  if (options.system.empty()) return {};
-  std::filesystem::path file = options.system;
-  if (!std::filesystem::exists(file)) {
-    const auto known = FindProjectFile("config/systems/" + options.system + ".yaml");
-    if (!known.empty()) file = known;
-  }
-  std::vector<std::string> own_names = {dds::ThisHost().name};
-  for (const NetworkInterface& interface : NetworkInterfaces()) {
-    if (interface.is_loopback) continue;
-    own_names.insert(own_names.end(), interface.addresses.begin(), interface.addresses.end());
-  }
-  return ReadSystemFacts(app::LoadYaml(file), options.host, own_names);
-}
+/// What a system file says about this host.
+struct HostNeeds {
+  std::optional<int> domain_id;
+  std::filesystem::path security;  ///< empty: none
+  SystemFacts facts;
+};
 
-/// The environment that `palpate launch` would give the processes of the system.
-void ApplyTransport(const SystemFacts& system) {
-  if (!system.network_interface.empty()) {
-    setenv("PALPATE_INTERFACE", system.network_interface.c_str(), 1);
+/// Gives this process the environment that `palpate launch` would give those of the system.
+HostNeeds EnterSystem(const DoctorOptions& options) {
+  if (options.system.empty()) return {};
+  SystemFile system = ReadSystemFile(FindSystemFile(options.system), app::LoadYaml);
+  const HostPlan& host = ChooseHost(system, options.host);
+  for (const auto& [name, value] : MiddlewareEnvironment(system, host)) {
+    setenv(name.c_str(), value.c_str(), 1);
   }
-  if (system.transport.empty()) return;
-  const auto file = FindProjectFile("config/cyclonedds/" + system.transport + ".xml");
-  setenv("CYCLONEDDS_URI", ("file://" + file.string()).c_str(), 1);
-  std::string peers;
-  for (const std::string& peer : system.peers) peers += (peers.empty() ? "" : ",") + peer;
-  if (!peers.empty()) setenv("PALPATE_PEERS", peers.c_str(), 1);
+  return {.domain_id = system.domain_id, .security = system.security, .facts = FactsOf(host)};
 }
 
 void CheckNetwork(int domain_id, std::vector<Check>* checks) {
@@ -85,8 +77,7 @@ int Doctor(const DoctorOptions& options) {
 }  // namespace
 
 std::vector<Check> Diagnose(const DoctorOptions& options) {
-  const SystemFacts system = ReadSystem(options);
-  ApplyTransport(system);
+  const HostNeeds system = EnterSystem(options);
   const int domain_id = system.domain_id.value_or(options.domain_id);
   const std::string trouble = system.domain_id ? std::string() : options.domain_trouble;
   std::vector<Check> checks = {CheckDomain({.trouble = trouble,
@@ -94,13 +85,14 @@ std::vector<Check> Diagnose(const DoctorOptions& options) {
                                             .first_ephemeral_port = ReadFirstEphemeralPort()})};
   if (trouble.empty()) CheckNetwork(domain_id, &checks);
   checks.push_back(CheckCameras(FindCameras(options.cameras, NetworkInterfaces()),
-                                system.has_genicam_camera || !options.cameras.empty()));
+                                system.facts.has_genicam_camera || !options.cameras.empty()));
   checks.push_back(CheckProcessor(ReadProcessor()));
   checks.push_back(CheckDisk(ReadDisk(std::filesystem::current_path())));
   const auto& security = options.security.empty() ? system.security : options.security;
   checks.push_back(CheckSecurity(ReadSecurity(security, !security.empty() || IsSecurityOn())));
-  const auto& robot = options.robot.empty() ? system.robot : options.robot;
-  const auto& calibration = options.calibration.empty() ? system.calibration : options.calibration;
+  const auto& robot = options.robot.empty() ? system.facts.robot : options.robot;
+  const auto& calibration =
+      options.calibration.empty() ? system.facts.calibration : options.calibration;
   if (!robot.empty()) {
     checks.push_back(CheckRobotFiles(robot.string(), calibration.string(),
                                      CompareRobotFiles(robot, calibration)));

@@ -10,6 +10,7 @@
 #include <memory>
 #include <utility>
 
+#include "components/palpate/launch/launch_plan.hpp"
 #include "components/palpate/security/keystore.hpp"
 #include "components/palpate/security/keystore_check.hpp"
 #include "components/palpate/security/security_report.hpp"
@@ -64,7 +65,8 @@ std::vector<Identity> Named(const SecurityOptions& options) {
 
 std::vector<Identity> OfSystem(const SecurityOptions& options) {
   if (options.system.empty()) return {};
-  std::vector<Identity> identities = IdentitiesOfSystem(app::LoadYaml(options.system));
+  std::vector<Identity> identities =
+      IdentitiesOfSystem(ReadSystemFile(FindSystemFile(options.system), app::LoadYaml));
   // For the commands; where they are typed is not in the file.
   for (const Identity& command : OfRoles({dds::kObserver, dds::kOperator})) {
     identities.push_back(command);

@@ -5,22 +5,20 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "components/palpate/doctor/machine_facts.hpp"
 #include "components/palpate/doctor/system_facts.hpp"
 #include "libs/app/yaml.hpp"
-#include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
 #include "tests/components/palpate/doctor/check_matcher.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::command {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double kDay_s = 86400.0;
@@ -50,34 +48,36 @@ TEST(DoctorMachine, TheDiskHasRoomForRecordings) {
   EXPECT_THAT(CheckDisk({"/data", std::nullopt}), Is(Grade::kWarning, "cannot be read"));
 }
 
+/// A keystore of two identities, at a day.
 SecurityFacts Secured() {
-  return {.is_on = true,
-          .folder = "keys",
-          .folder_exists = true,
-          .certificates = {{"keys/ca.pem", 900 * kDay_s}, {"keys/capture/cert.pem", 90.5 * kDay_s}},
-          .open_keys = {}};
+  constexpr std::int64_t kNow_s = 1'800'000'000;
+  const auto end_s = [](double days) { return kNow_s + static_cast<std::int64_t>(days * kDay_s); };
+  SecurityFacts facts{.is_on = true, .folder = "keys", .trouble = {}, .state = {}, .now_s = kNow_s};
+  for (const auto& [name, days] : {std::pair("capture", 90.5), std::pair("observer", 900.0)}) {
+    IdentityState& identity = facts.state.identities.emplace_back();
+    identity.name = name;
+    identity.end_s = end_s(days);
+  }
+  return facts;
 }
 
-TEST(DoctorMachine, SecurityFilesAreValidAndPrivate) {
+TEST(DoctorMachine, SecurityFilesAreJudgedAsTheKeystoresCheckDoes) {
   EXPECT_THAT(CheckSecurity({}), Is(Grade::kOk, "off: any process"));
-  EXPECT_THAT(CheckSecurity({.is_on = true, .folder = {}, .certificates = {}, .open_keys = {}}),
+  EXPECT_THAT(CheckSecurity({.is_on = true, .folder = {}, .trouble = {}, .state = {}}),
               Is(Grade::kWarning, "not checked", "--security FOLDER"));
   EXPECT_THAT(CheckSecurity(Secured()),
-              Is(Grade::kOk, "2 certificates in keys, the first expires in 90 days (cert.pem)"));
+              Is(Grade::kOk, "2 identities in keys, the first one, capture, ends in 90 days"));
   SecurityFacts facts = Secured();
-  facts.certificates[1].valid_for_s = 10 * kDay_s;
-  EXPECT_THAT(CheckSecurity(facts), Is(Grade::kWarning, "10 days", "palpate security"));
-  facts.certificates[1].valid_for_s = -3 * kDay_s;
-  EXPECT_THAT(CheckSecurity(facts), Is(Grade::kFailure, "cert.pem expired 3 days ago", "security"));
-  facts.certificates[1].valid_for_s = std::nullopt;
-  EXPECT_THAT(CheckSecurity(facts), Is(Grade::kFailure, "cert.pem cannot be read", "security"));
-  facts.open_keys = {"keys/capture/key.pem"};
+  facts.state.identities[1].findings = {
+      {Severity::kWarning, "keys/cert.pem", "ends in 10 days", "palpate security enroll"}};
   EXPECT_THAT(CheckSecurity(facts),
-              Is(Grade::kFailure, "other users can read", "chmod 600 keys/capture/key.pem"));
-  facts.certificates.clear();
-  EXPECT_THAT(CheckSecurity(facts), Is(Grade::kFailure, "no certificate", "security"));
-  facts.folder_exists = false;
-  EXPECT_THAT(CheckSecurity(facts), Is(Grade::kFailure, "keys is not there", "security"));
+              Is(Grade::kWarning, "keys/cert.pem ends in 10 days", "palpate security enroll"));
+  facts.state.identities[1].findings.push_back(
+      {Severity::kError, "keys/key.pem", "others can read it", "chmod 600 keys/key.pem"});
+  EXPECT_THAT(CheckSecurity(facts),
+              Is(Grade::kFailure, "keys/key.pem others can read it", "chmod 600 keys/key.pem"));
+  facts.trouble = "keys: has no identities";
+  EXPECT_THAT(CheckSecurity(facts), Is(Grade::kFailure, "has no identities", "security init"));
 }
 
 TEST(DoctorMachine, CamerasAnswerOverLargePackets) {
@@ -105,22 +105,10 @@ TEST(DoctorMachine, RobotAndCalibrationFileFit) {
   EXPECT_TRUE(CompareRobotFiles("rod", {}).ok());
 }
 
-TEST(DoctorFacts, ReadsCertificatesAndFindsOpenKeys) {
+TEST(DoctorFacts, AFolderWithoutIdentitiesSaysSo) {
   const test_support::TestFolder folder;
-  const std::string make =
-      "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 20 -subj "
-      "/CN=a -keyout " +
-      (folder.path() / "key.pem").string() + " -out " + (folder.path() / "cert.pem").string() +
-      " 2>/dev/null";
-  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "openssl is not installed";
-  std::filesystem::permissions(folder.path() / "key.pem", std::filesystem::perms(0644));
-  const SecurityFacts facts = ReadSecurity(folder.path(), true);
-  ASSERT_EQ(facts.certificates.size(), 1U);
-  ASSERT_TRUE(facts.certificates[0].valid_for_s);
-  EXPECT_NEAR(*facts.certificates[0].valid_for_s / kDay_s, 20.0, 0.1);
-  EXPECT_THAT(facts.open_keys, ElementsAre(folder.path() / "key.pem"));
-  WriteFile(folder.path() / "cert.pem", "-----BEGIN CERTIFICATE-----\nbroken\n");
-  EXPECT_FALSE(ReadSecurity(folder.path(), true).certificates[0].valid_for_s);
+  EXPECT_THAT(ReadSecurity(folder.path(), true).trouble, HasSubstr("has no identities"));
+  EXPECT_EQ(ReadSecurity({}, false).trouble, "");
 }
 
 TEST(DoctorFacts, ThereIsARouteToOneself) {
@@ -129,60 +117,27 @@ TEST(DoctorFacts, ThereIsARouteToOneself) {
   EXPECT_FALSE(MulticastComesBack("no address", std::chrono::milliseconds(1)));
 }
 
-constexpr char kSystem[] = R"(
-name: lab
-domain: 7
-transport: lossy_link
-security: keys
-hosts:
-  - name: camera
-    address: 192.0.2.1
-    interface: eth1
-    processes:
-      - {name: c, component: capture}
-  - name: model
-    address: 192.0.2.2
-    processes:
-      - {name: f, component: force_estimation, arguments: [rod, --calibration, $(cal)]}
-)";
-
-SystemFacts Facts(const std::string& host, const std::vector<std::string>& own_names = {}) {
-  return ReadSystemFacts(app::ParseYaml(kSystem, "/etc/lab.yaml"), host, own_names);
+/// Of the first host of a system file with these processes.
+SystemFacts Facts(const std::string& processes) {
+  const test_support::TestFolder folder;
+  const std::string file = folder.Write(
+      "system.yaml",
+      "name: lab\nvariables: {cal: found.yaml}\nhosts:\n  - name: h\n    processes: [" + processes +
+          "]\n");
+  return FactsOf(ReadSystemFile(file, app::LoadYaml).hosts.front());
 }
 
 TEST(DoctorFacts, ASystemFileSaysWhatThisHostNeeds) {
-  const SystemFacts camera = Facts("", {"192.0.2.1"});
-  EXPECT_EQ(camera.domain_id, 7);
-  EXPECT_EQ(camera.transport, "lossy_link");
-  EXPECT_EQ(camera.network_interface, "eth1");
-  EXPECT_EQ(camera.security, "/etc/keys");
-  EXPECT_THAT(camera.peers, ElementsAre("192.0.2.2"));
-  EXPECT_TRUE(camera.has_genicam_camera);
-  EXPECT_TRUE(camera.robot.empty());
-  std::string with_virtual = kSystem;
   const std::string capture = "{name: c, component: capture}";
-  with_virtual.insert(with_virtual.find(capture) + capture.size(),
-                      "\n      - {name: v, component: virtual_camera}");
-  EXPECT_FALSE(
-      ReadSystemFacts(app::ParseYaml(with_virtual, "a.yaml"), "camera", {}).has_genicam_camera);
-  const SystemFacts model = Facts("model");
+  EXPECT_TRUE(Facts(capture).has_genicam_camera);
+  EXPECT_TRUE(Facts(capture).robot.empty());
+  EXPECT_FALSE(Facts("{name: c, component: capture, set: {source: replay}}").has_genicam_camera);
+  EXPECT_FALSE(Facts(capture + ", {name: v, component: virtual_camera}").has_genicam_camera);
+  const SystemFacts model =
+      Facts("{name: f, component: force_estimation, arguments: [rod, --calibration, $(cal)]}");
   EXPECT_FALSE(model.has_genicam_camera);
   EXPECT_EQ(model.robot, "rod");
-  EXPECT_TRUE(model.calibration.empty());
-}
-
-std::string RefusalOfHost(const std::string& host) {
-  try {
-    Facts(host);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-TEST(DoctorFacts, RefusesASystemFileOfOtherHosts) {
-  EXPECT_THAT(RefusalOfHost("modell"), HasSubstr("has no host 'modell' (did you mean 'model'?)"));
-  EXPECT_THAT(RefusalOfHost(""), HasSubstr("give --host, one of camera, model"));
+  EXPECT_EQ(model.calibration, "found.yaml");
 }
 
 }  // namespace

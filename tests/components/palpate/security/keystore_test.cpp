@@ -20,6 +20,7 @@ namespace {
 
 using std::filesystem::path;
 using test_support::MessageOf;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -44,7 +45,7 @@ Answer RunVerb(std::vector<std::string> words) {
 }
 
 constexpr char kSystem[] = R"(
-name: two hosts
+name: two_hosts
 hosts:
   - name: camera_host
     processes:
@@ -131,12 +132,14 @@ TEST_F(KeystoreTest, ASystemFileSaysWhoIsOnWhichHost) {
 }
 
 TEST_F(KeystoreTest, TwoProcessesOfOneIdentityAreRefused) {
-  const auto yaml = app::ParseYaml(
-      "hosts: [{name: a, processes: [{name: x, component: capture}]},\n"
-      "        {name: b, processes: [{name: y, component: capture}]}]\n",
-      "system.yaml");
-  EXPECT_THAT(MessageOf([&] { IdentitiesOfSystem(yaml); }),
-              HasSubstr("second process with the identity 'capture'"));
+  const std::string file =
+      folder_.Write("system.yaml",
+                    "name: s\n"
+                    "hosts: [{name: a, processes: [{name: one, component: capture}]},\n"
+                    "        {name: b, processes: [{name: two, component: capture}]}]\n");
+  EXPECT_THAT(MessageOf([&] { IdentitiesOfSystem(ReadSystemFile(file, app::LoadYaml)); }),
+              AllOf(HasSubstr("system.yaml:3:"),
+                    HasSubstr("'two' is a second process with the identity 'capture'")));
 }
 
 TEST_F(KeystoreTest, CheckFindsWhatTheSystemFileHasAndTheKeystoreLacks) {
