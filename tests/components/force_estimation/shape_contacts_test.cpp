@@ -139,6 +139,15 @@ TEST_F(Contacts, WhosePlaceWasNotFittedAreAsUncertainAsTheyWereSeen) {
   EXPECT_LT(fitted_m, seen_m);
 }
 
+TEST_F(Contacts, HoldZeroWhereNobodyPushes) {
+  Fit(SeenFrameOf(free_));
+  ASSERT_EQ(fit_.sites().size(), 1u);
+  EXPECT_TRUE(report_.HoldsZero(fit_, 0));
+  Fit(SeenFrameOf(Solve(kForce_N)));
+  ASSERT_EQ(fit_.sites().size(), 1u);
+  EXPECT_FALSE(report_.HoldsZero(fit_, 0));
+}
+
 TEST_F(Contacts, ThatNobodySeesAreFoundAndAtRestNoneIs) {
   const ShapeFrame rest = FrameOf(free_);
   for (int k = 0; k < 3; ++k) {

@@ -81,6 +81,26 @@ TEST(DepthBiasFromCalibration, ErrsAsTheCalibrationDid) {
   EXPECT_NEAR(sum / kDraws, 1.0, 0.2);
 }
 
+/// The frames may be those that it was calibrated with. One that tells as much as it does leaves it
+/// as sure as it was; two independent ones would halve the variance.
+TEST(DepthBiasFromCalibration, IsNoSurerAfterAFrameItMayHaveComeFrom) {
+  std::mt19937 random(3);
+  const Eigen::Isometry3d pose = BenchPose();
+  const Found found = FindWithErrors(pose, random);
+  ShapeConfig config;
+  config.feature_offset_prior_m = 1e-9;
+  DepthBias bias(1, config);
+  bias.StartFrom(found.map, pose);
+  ASSERT_TRUE(bias.Finish().ok());
+  correspondence::FeatureMatch match = MatchAt({0.05, -0.03, kDistance_m}, {0.2, -0.1, -1.0});
+  const double before_m = bias.CorrectionSigma_m(0, match, pose);
+  match.sigma_m = before_m;
+  match.target_m = bias.Correction_m(0, match, pose);
+  bias.Learn({match}, Eigen::VectorXd(), pose);
+  ASSERT_TRUE(bias.Finish().ok());
+  EXPECT_NEAR(bias.CorrectionSigma_m(0, match, pose) / before_m, 1.0, 1e-6);
+}
+
 TEST(DepthBiasFromCalibration, IsLearntOn) {
   geometry::DepthBiasMap map;
   map.coefficients = -4e-3 * Eigen::VectorXd::Unit(6, 0);
