@@ -111,7 +111,8 @@ class Packages(unittest.TestCase):
         recording = root / "var/lib/palpate/run.mcap"
         recording.parent.mkdir()
         recording.write_text("measured\n", encoding="utf-8")
-        in_root(root, "apt-get", "purge", "--yes", "--auto-remove", "palpate")
+        in_root(root, "apt-get", "purge", "--yes", "--auto-remove", "palpate",
+                "libopenblas0-pthread")
         self.assertEqual(files_of(root) - before,
                          {"/var/lib/palpate", "/var/lib/palpate/run.mcap"})
         self.assertEqual(before - files_of(root), set())
