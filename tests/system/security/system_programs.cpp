@@ -20,6 +20,7 @@ std::vector<WaitingProgram> WaitingPrograms() {
       {"capture", {"--camera", "127.0.0.9"}},
       {"perception", {"--set", "markers.color_rgb=[1, 0, 0]"}},
       {"perception", {"--set", "camera.source=driver"}},
+      {"perception", {"--set", "camera.source=driver", "--set", "camera.transport=compressed"}},
       {"force_estimation", {"four_leg", "--camera-pose", pose}},
       {"force_estimation", {"four_leg", "--set", "source=markers"}},
       {"calibration", {"four_leg"}},
