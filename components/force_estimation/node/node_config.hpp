@@ -33,7 +33,7 @@ struct NodeConfig : Config {
       "Data for the estimation; auto: shape where camera_pose is given, else markers");
     v("camera_pose", camera_pose,
       "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
-      "w]}\"; needed for the shape, unless /calibration is to say it");
+      "w]}\"; needed for the shape, unless /calibration or /tf say it");
     v("follow_calibration", follow_calibration,
       "Use camera pose, actuator offsets and moduli of /calibration from the next frame on, "
       "which begins a sequence; false: keep those of the start");

@@ -31,6 +31,11 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(clouds_, [this] { TakeClouds(); });
   loop.Attach(reports_, [this] { TakeReports(); });
   loop.Attach(contacts_, [this] { TakeContacts(); });
+  if (T_robot_camera) return;
+  transforms_.emplace(Transforms{participant.CreateReader(dds::kTfStaticTopic),
+                                 participant.CreateReader(dds::kTfTopic)});
+  loop.Attach(transforms_->at_rest, [this] { TakeTransforms(transforms_->at_rest); });
+  loop.Attach(transforms_->moving, [this] { TakeTransforms(transforms_->moving); });
 }
 
 void ShapeSource::ExpectInputs(dds::InputMonitor& inputs) const {
@@ -44,6 +49,7 @@ void ShapeSource::ExpectInputs(dds::InputMonitor& inputs) const {
 void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
   if (!calibration.pose) return;
   T_robot_camera_ = calibration.pose->T_robot_camera;
+  is_calibrated_ = true;
   depth_bias_ = calibration.depth_bias;
   dropped_ += pending_.size();
   pending_.clear();
@@ -110,6 +116,18 @@ void ShapeSource::TakeContacts() {
   HandOverComplete();
 }
 
+/// Perception, which segments by the same pose, refuses the frames of a camera that moves.
+void ShapeSource::TakeTransforms(dds::Reader<idl::tf2_msgs::TFMessage>& reader) {
+  for (const auto& message : reader.Take()) {
+    // One that is none leaves the camera where the others have it.
+    (void)transforms_->tree.Add(message);
+  }
+  if (is_calibrated_) return;
+  const auto T_robot_camera = transforms_->tree.Find(
+      std::string(geometry::kRobotFrame), std::string(geometry::kCameraDepthOpticalFrame));
+  if (T_robot_camera) T_robot_camera_ = T_robot_camera;
+}
+
 /// Hands over complete frames in the order in which they came. Those before a complete one lost a
 /// part.
 void ShapeSource::HandOverComplete() {
@@ -154,8 +172,9 @@ Status ShapeSource::Check(const Parts& parts) const {
   if (!parts.status.ok()) return parts.status;
   if (!T_robot_camera_) {
     return {StatusCode::kNoCalibration,
-            "where the camera stands is not known: no camera_pose is set, and nothing has come on "
-            "/calibration"};
+            "where the camera stands is not known: no camera_pose is set, nothing has come on "
+            "/calibration, and /tf and /tf_static do not join 'robot' with "
+            "'camera_depth_optical_frame'"};
   }
   if (!depth_bias_ || !parts.report->perception.ok()) return Status::Ok();
   return robot::CheckDepthPicture(*depth_bias_, parts.report->origin.picture);

@@ -9,7 +9,9 @@
 #include <string>
 
 #include "components/force_estimation/node/frame_source.hpp"
+#include "libs/dds/driver_topics.hpp"
 #include "libs/dds/participant.hpp"
+#include "libs/dds/transforms.hpp"
 #include "libs/dds/wait_set.hpp"
 #include "libs/geometry/depth_picture.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -19,7 +21,8 @@ namespace palpate::force_estimation {
 /// Frames of /perception/robot_cloud, /perception/report and /perception/contacts of one stamp.
 class ShapeSource : public FrameSource {
  public:
-  /// `T_robot_camera`: nullopt: unknown, and frames are refused until SetCalibration gives it.
+  /// `T_robot_camera`: nullopt: unknown, and frames are refused until SetCalibration gives it, or
+  /// /tf and /tf_static join the robot with the camera.
   ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
               const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take);
 
@@ -62,6 +65,7 @@ class ShapeSource : public FrameSource {
   void TakeClouds();
   void TakeReports();
   void TakeContacts();
+  void TakeTransforms(dds::Reader<idl::tf2_msgs::TFMessage>& reader);
   Parts* PartsAt(int64_t stamp_ns);
   void HandOverComplete();
   FrameArrival ArrivalOf(Parts parts);
@@ -72,7 +76,16 @@ class ShapeSource : public FrameSource {
   /// More than all readers hold at once: frames that lost a part never push out complete ones.
   static constexpr size_t kMostPending = 32;
 
+  /// The transforms by which the camera is found where neither settings nor calibration have it.
+  struct Transforms {
+    dds::Reader<idl::tf2_msgs::TFMessage> at_rest;
+    dds::Reader<idl::tf2_msgs::TFMessage> moving;
+    dds::TransformTree tree = {};
+  };
+
   std::optional<Eigen::Isometry3d> T_robot_camera_;
+  bool is_calibrated_ = false;            ///< the pose is that of a calibration
+  std::optional<Transforms> transforms_;  ///< nullopt: the pose is known otherwise
   std::optional<robot::CalibratedDepthBias> depth_bias_;
   dds::Reader<idl::sensor_msgs::PointCloud2> clouds_;
   dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;

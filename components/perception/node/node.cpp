@@ -114,13 +114,16 @@ void PerceptionNode::AdoptCalibration() {
 /// For the tools of ROS 2. One that is not taken is sent again with the next calibration. The
 /// frames of a driver have a parent already, so that the robot's is below them.
 void PerceptionNode::SendPose() {
-  if (!pose_.T_robot_camera() || pose_.is_of_frames()) return;
+  if (!pose_.T_robot_camera()) return;
   const std::int64_t now_ns = participant_.Now_ns();
   const std::string frame = streams_->depth_frame();
   if (config_.camera.source == "capture") {
     (void)transforms_.Set(geometry::kRobotFrame, frame, *pose_.T_robot_camera(), now_ns);
   } else if (!frame.empty()) {
-    (void)transforms_.Set(frame, geometry::kRobotFrame, pose_.T_robot_camera()->inverse(), now_ns);
+    if (!pose_.is_of_frames()) {
+      (void)transforms_.Set(frame, geometry::kRobotFrame, pose_.T_robot_camera()->inverse(),
+                            now_ns);
+    }
     if (frame == geometry::kCameraDepthOpticalFrame) return;
     (void)transforms_.Set(frame, geometry::kCameraDepthOpticalFrame, Eigen::Isometry3d::Identity(),
                           now_ns);

@@ -33,9 +33,9 @@ using Seen = test_support::SeenFrame;
 /// The node in a thread of its own, and a participant that plays perception, robot and reader.
 class ShapeNodeTest : public testing::Test {
  protected:
-  ShapeNodeTest()
-      : node_(TestConfig(), NodeTestRobot(), {}, static_cast<int>(dds::TestDomain()), ManyClouds(),
-              {}, script_.Maker()),
+  explicit ShapeNodeTest(const NodeConfig& config = TestConfig())
+      : node_(config, NodeTestRobot(), {}, static_cast<int>(dds::TestDomain()), ManyClouds(), {},
+              script_.Maker()),
         test_("test", ManyClouds()),
         perception_(test_),
         forces_(test_.participant.CreateReader(dds::kForcesTopic, test_.Waker())),

@@ -10,6 +10,8 @@
 
 #include "components/force_estimation/node/make_pipeline.hpp"
 #include "libs/core/error.hpp"
+#include "libs/dds/transforms.hpp"
+#include "libs/geometry/frames.hpp"
 #include "tests/components/force_estimation/node/shape_node_fixture.hpp"
 
 /// palpate-force-estimation from the robot's shape.
@@ -156,6 +158,41 @@ TEST_F(ShapeNodeTest, RefusesAContactThatIsNoNumberAndRecoversWithTheNextFrame) 
   EXPECT_EQ(answer.status, "invalid_input");
   EXPECT_THAT(answer.reason, HasSubstr("/perception/contacts: contact 'contact_1'"));
   EXPECT_EQ(Ask({.stamp_ns = 20}).status, "ok");
+}
+
+NodeConfig WithoutPose() {
+  NodeConfig config = TestConfig();
+  config.source = "shape";
+  config.camera_pose.clear();
+  return config;
+}
+
+class WithoutPoseTest : public ShapeNodeTest {
+ protected:
+  WithoutPoseTest() : ShapeNodeTest(WithoutPose()) {}
+};
+
+TEST_F(WithoutPoseTest, TakesTheCameraPoseOfTheTransforms) {
+  const Answer before = Ask({.stamp_ns = 10});
+  EXPECT_EQ(before.status, "no_calibration");
+  EXPECT_THAT(before.reason, HasSubstr("/tf"));
+  EXPECT_TRUE(script_.calls().empty());
+  Eigen::Isometry3d T_robot_mount = Eigen::Isometry3d::Identity();
+  T_robot_mount.translation().x() = 0.2;
+  Eigen::Isometry3d T_mount_camera = Eigen::Isometry3d::Identity();
+  T_mount_camera.translation().z() = 0.5;
+  dds::TransformBroadcaster transforms(test_.participant);
+  ASSERT_TRUE(transforms.Set(geometry::kRobotFrame, "mount", T_robot_mount, 1));
+  ASSERT_TRUE(transforms.Set("mount", geometry::kCameraDepthOpticalFrame, T_mount_camera, 1));
+  std::int64_t stamp_ns = 10;
+  Answer answer;
+  const auto deadline = dds::WaitSet::Clock::now() + std::chrono::seconds(20);
+  while (answer.status != "ok" && dds::WaitSet::Clock::now() < deadline) {
+    answer = Ask({.stamp_ns = stamp_ns += 10});
+  }
+  ASSERT_EQ(answer.status, "ok") << answer.reason;
+  EXPECT_EQ(script_.calls().at(0).shape.frame.T_robot_camera.translation(),
+            Eigen::Vector3d(0.2, 0.0, 0.5));
 }
 
 TEST(PipelineMaker, LearnsNoDepthBiasThatTheCalibrationGives) {
