@@ -28,6 +28,8 @@ class MarkerMap {
             bool with_unlabelled);
 
   std::vector<CapturedMarker> Map(const NatNetFrame& frame) const;
+  /// Of the motion capture's frame, in the robot frame.
+  Eigen::Vector3d origin_m() const { return T_robot_mocap_.translation(); }
 
  private:
   CapturedMarker Mapped(const std::string& name, const Eigen::Vector3f& position_m) const;

@@ -150,6 +150,7 @@ ExperimentPlayer::Track ExperimentPlayer::MakeTrack(const Recording& recording,
   track.T_frame_measured = std::get<Eigen::Isometry3d>(pose);
   track.frame = MeasurementFrame::kRobot;
   track.sigma_m = TurnedSigma(track.T_frame_measured.linear(), track.sigma_m);
+  track.pose_error = experiment::PoseErrorOf(experiment_, recording);
   return track;
 }
 
@@ -186,6 +187,8 @@ MarkerSet ExperimentPlayer::MarkersOf(const Track& track,
   MarkerSet set;
   set.reference = ReferenceAt(*track.recording, frame.t_s);
   set.frame = track.frame;
+  set.pose_error = track.pose_error;
+  set.pose_about_m = track.T_frame_measured.translation();
   const auto& names = track.recording->markers->names;
   for (size_t i = 0; i < names.size(); ++i) {
     Marker marker{names[i], std::nullopt, track.sigma_m};

@@ -14,6 +14,7 @@
 #include "libs/core/config_node.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::player {
 
@@ -37,6 +38,9 @@ struct MarkerSet {
   MarkerReference reference = MarkerReference::kNone;
   experiment::MeasurementFrame frame = experiment::MeasurementFrame::kRobot;
   std::vector<Marker> markers;
+  /// Of the pose by which they came into the robot frame; nullopt: they are as measured.
+  std::optional<geometry::PoseStandardError> pose_error = {};
+  Eigen::Vector3d pose_about_m = Eigen::Vector3d::Zero();  ///< the origin of what measured, there
 };
 
 /// Where a frame set of images stands on disk.
@@ -99,7 +103,8 @@ class ExperimentPlayer {
     Eigen::Vector3d sigma_m;
     std::vector<double> times_s;                       ///< of all events, rising
     std::unique_ptr<experiment::RgbdSequence> images;  ///< stays where it is: events point to it
-    std::optional<Eigen::Isometry3d> T_robot_camera = {};  ///< of the images
+    std::optional<Eigen::Isometry3d> T_robot_camera = {};        ///< of the images
+    std::optional<geometry::PoseStandardError> pose_error = {};  ///< of T_frame_measured
   };
 
   explicit ExperimentPlayer(experiment::Experiment experiment);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <cmath>
+
 #include "components/force_estimation/node/convert.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/invalid_message.hpp"
@@ -29,6 +31,17 @@ bool ToReference(uint8_t code, ReferenceShape* reference) {
   }
 }
 
+Status ToPoseError(const idl::palpate_msgs::MarkerArray3& message, PoseError* error) {
+  *error = {.about_m = dds::ToVector(message.pose_about_m),
+            .translation_sigma_m = message.pose_translation_sigma_m,
+            .rotation_sigma_rad = message.pose_rotation_sigma_rad};
+  const auto is_error = [](double sigma) { return std::isfinite(sigma) && sigma >= 0.0; };
+  const bool valid = error->about_m.allFinite() && is_error(error->translation_sigma_m) &&
+                     is_error(error->rotation_sigma_rad);
+  return valid ? Status::Ok()
+               : Invalid("the standard error of the markers' pose is negative or not finite");
+}
+
 }  // namespace
 
 FrameHead HeadOf(const idl::palpate_msgs::MarkerArray3& message,
@@ -46,6 +59,7 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
     return Invalid("unknown reference_shape " + std::to_string(message.reference_shape));
   }
   frame->t_s = 1e-9 * static_cast<double>(dds::StampNs(message.header.stamp));
+  if (Status status = ToPoseError(message, &frame->pose_error); !status.ok()) return status;
   frame->markers.assign(names.size(), MarkerObservation());
   std::vector<dds::NamedMarker> seen;
   if (Status status = dds::FromMarkers(message, names, &seen); !status.ok()) return status;

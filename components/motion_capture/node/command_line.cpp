@@ -31,8 +31,11 @@ std::unique_ptr<MotionCaptureNode> MakeNode(const Command& command) {
     throw InputError(
         "--mocap-pose is required: how does the frame of the motion capture stand to the robot?");
   }
+  std::optional<geometry::PoseStandardError> stated;
+  const Eigen::Isometry3d T_robot_mocap =
+      geometry::ReadMeasuredPose(app::ParseYaml(pose, "T_robot_mocap"), &stated);
   return std::make_unique<MotionCaptureNode>(
-      command.config, geometry::ReadPose(app::ParseYaml(pose, "T_robot_mocap")),
+      command.config, T_robot_mocap, stated.value_or(geometry::PoseStandardError()),
       command.options.domain_id,
       dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }

@@ -21,11 +21,13 @@ constexpr auto kReportPeriod = std::chrono::seconds(1);
 }  // namespace
 
 MotionCaptureNode::MotionCaptureNode(const NodeConfig& config,
-                                     const Eigen::Isometry3d& T_robot_mocap, int domain_id,
+                                     const Eigen::Isometry3d& T_robot_mocap,
+                                     const geometry::PoseStandardError& pose_error, int domain_id,
                                      dds::TopicTable table, dds::NodeLog::ProcessLog process_log)
     : config_(config),
       version_(ParseNatNetVersion(config.natnet_version)),
       map_(T_robot_mocap, config.rename, config.unlabelled),
+      pose_error_(pose_error),
       participant_(dds::ParticipantOf(config.dds, "palpate_motion_capture", domain_id),
                    std::move(table)),
       loop_(participant_),
@@ -83,6 +85,9 @@ void MotionCaptureNode::Publish(const NatNetFrame& frame, std::int64_t stamp_ns)
   dds::Message<idl::palpate_msgs::MarkerArray3> message;
   dds::SetHeader(message->header, stamp_ns, geometry::kRobotFrame);
   message->counter = counter_++;
+  dds::SetVector(message->pose_about_m, map_.origin_m());
+  message->pose_translation_sigma_m = pose_error_.translation_m;
+  message->pose_rotation_sigma_rad = pose_error_.rotation_rad;
   dds::Resize(message->markers, markers.size());
   for (std::size_t i = 0; i < markers.size(); ++i) {
     auto& target = message->markers._buffer[i];

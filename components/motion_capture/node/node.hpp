@@ -13,6 +13,7 @@
 #include "libs/dds/health.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/wait_set.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::motion_capture {
 
@@ -20,7 +21,9 @@ namespace palpate::motion_capture {
 class MotionCaptureNode {
  public:
   /// Throws InputError for bad settings, RunError where DDS or the network refuses.
-  MotionCaptureNode(const NodeConfig& config, const Eigen::Isometry3d& T_robot_mocap, int domain_id,
+  /// `pose_error`: of T_robot_mocap.
+  MotionCaptureNode(const NodeConfig& config, const Eigen::Isometry3d& T_robot_mocap,
+                    const geometry::PoseStandardError& pose_error, int domain_id,
                     dds::TopicTable table, dds::NodeLog::ProcessLog process_log);
 
   /// Returns after Stop().
@@ -46,6 +49,7 @@ class MotionCaptureNode {
   NodeConfig config_;
   NatNetVersion version_;
   MarkerMap map_;
+  geometry::PoseStandardError pose_error_;
   dds::Participant participant_;
   dds::WaitSet loop_;
   dds::NodeLog log_;

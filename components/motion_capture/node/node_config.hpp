@@ -28,7 +28,8 @@ struct NodeConfig {
   void Visit(Visitor&& v) {
     v("T_robot_mocap", T_robot_mocap,
       "Pose of the motion capture's frame in the robot frame, \"{translation_m: [x, y, z], "
-      "rotation_xyzw: [x, y, z, w]}\"; required to run");
+      "rotation_xyzw: [x, y, z, w]}\", and its `standard_error: {translation_m, rotation_rad}`, "
+      "else 5 mm and 0.01 rad; required to run");
     v("natnet_version", natnet_version, "Version of the NatNet protocol; Motive 3.1 sends 4.1");
     v("multicast_group", multicast_group,
       "Multicast group of the server; empty: it sends to this host's address");

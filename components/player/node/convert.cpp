@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
+#include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -62,6 +63,11 @@ dds::Message<idl::palpate_msgs::MarkerArray3> ToMarkerArray(const Event& event, 
   message->counter = set.counter;
   dds::SetText(message->recording, event.recording);
   message->reference_shape = ReferenceCode(set.reference);
+  if (set.pose_error) {
+    dds::SetVector(message->pose_about_m, set.pose_about_m);
+    message->pose_translation_sigma_m = set.pose_error->translation_m;
+    message->pose_rotation_sigma_rad = set.pose_error->rotation_rad;
+  }
   dds::Resize(message->markers, set.markers.size());
   for (size_t i = 0; i < set.markers.size(); ++i) {
     const Marker& marker = set.markers[i];

@@ -37,6 +37,17 @@ TEST(PlayerConvert, MarkersKeepNameFramePlaceNoiseAndReference) {
   EXPECT_FALSE(markers[1].valid);
 }
 
+TEST(PlayerConvert, TheErrorOfThePoseGoesOutWithTheMarkers) {
+  Event event = SampleEvent({});
+  EXPECT_EQ(ToMarkerArray(event, 0)->pose_translation_sigma_m, 0.0);
+  event.markers->pose_error = {.translation_m = 0.001, .rotation_rad = 0.002};
+  event.markers->pose_about_m.z() = 0.5;
+  const auto message = ToMarkerArray(event, 0);
+  EXPECT_EQ(message->pose_about_m.z, 0.5);
+  EXPECT_EQ(message->pose_translation_sigma_m, 0.001);
+  EXPECT_EQ(message->pose_rotation_sigma_rad, 0.002);
+}
+
 TEST(PlayerConvert, APointThatNobodyNamedGoesOutWithoutAName) {
   Event event = EventWith({});
   event.markers->markers[0].name = std::string(experiment::kUnlabelledPrefix) + "1";

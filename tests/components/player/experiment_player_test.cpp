@@ -113,6 +113,21 @@ TEST(ExperimentPlayer, CameraCoordinatesAndNoiseAreTurnedIntoTheRobotFrame) {
   EXPECT_TRUE(set.markers[0].sigma_m.isApprox(Eigen::Vector3d(2e-4, 1e-4, 3e-4)));
 }
 
+TEST(ExperimentPlayer, TheErrorOfTheCamerasPoseGoesWithItsMarkers) {
+  experiment::Experiment experiment = CameraExperiment();
+  experiment.T_robot_camera_error = {.translation_m = 0.001, .rotation_rad = 0.002};
+  const MarkerSet set = *ExperimentPlayer(experiment, "a", true).Next()->markers;
+  ASSERT_TRUE(set.pose_error.has_value());
+  EXPECT_EQ(set.pose_error->translation_m, 0.001);
+  EXPECT_EQ(set.pose_error->rotation_rad, 0.002);
+  EXPECT_EQ(set.pose_about_m, experiment.T_robot_camera->translation());
+  experiment.T_robot_camera_error.reset();
+  EXPECT_EQ(ExperimentPlayer(experiment, "a", true).Next()->markers->pose_error->translation_m,
+            geometry::PoseStandardError().translation_m);
+  EXPECT_FALSE(ExperimentPlayer(experiment, "a", false).Next()->markers->pose_error);
+  EXPECT_FALSE(ExperimentPlayer(SampleExperiment(), "a", true).Next()->markers->pose_error);
+}
+
 TEST(ExperimentPlayer, LeavesMeasuredCoordinatesAloneWhereAsked) {
   ExperimentPlayer player(CameraExperiment(), "a", false);
   const MarkerSet set = *player.Next()->markers;

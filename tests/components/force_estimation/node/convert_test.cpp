@@ -65,6 +65,22 @@ TEST(EstimationConvert, RefusesMarkersThatCannotBeUsed) {
               HasSubstr("'m1' comes twice"));
   EXPECT_THAT(RefusalAfter([](Markers& m) { m.reference_shape = 9; }),
               HasSubstr("unknown reference_shape 9"));
+  EXPECT_THAT(RefusalAfter([](Markers& m) { m.pose_rotation_sigma_rad = -1.0; }),
+              HasSubstr("standard error of the markers' pose"));
+  EXPECT_THAT(RefusalAfter([](Markers& m) { m.pose_translation_sigma_m = kNaN; }),
+              HasSubstr("standard error of the markers' pose"));
+}
+
+TEST(EstimationConvert, TheErrorOfTheMarkersPoseComesWithThem) {
+  MarkerFrame frame;
+  auto message = TwoMarkers();
+  ASSERT_TRUE(FromMarkerArray(*message, kMarkers, &frame).ok());
+  EXPECT_TRUE(frame.pose_error.IsZero());
+  message->pose_about_m = {0.1, 0.2, 0.3};
+  message->pose_translation_sigma_m = 0.001;
+  message->pose_rotation_sigma_rad = 0.002;
+  ASSERT_TRUE(FromMarkerArray(*message, kMarkers, &frame).ok());
+  EXPECT_EQ(frame.pose_error, (PoseError{Eigen::Vector3d(0.1, 0.2, 0.3), 0.001, 0.002}));
 }
 
 TEST(EstimationConvert, ForcesKeepTheirNumbersAndTheFrameTheyAnswer) {

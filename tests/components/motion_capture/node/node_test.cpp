@@ -71,11 +71,12 @@ class MotionCaptureNodeTest : public testing::Test {
     std::vector<std::string> names;
     std::vector<bool> valid;
     double first_x_m = 0.0, sigma_m = 0.0;
+    double pose_about_x_m = 0.0, pose_sigma_m = 0.0, pose_sigma_rad = 0.0;
   };
 
   MotionCaptureNodeTest()
       : port_(Server::FreePort()),
-        node_(Config(port_), Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)),
+        node_(Config(port_), Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {0.001, 0.002},
               static_cast<int>(dds::TestDomain()), dds::BuiltInTable(), {}),
         test_("test"),
         markers_(test_.participant.CreateReader(dds::kMarkersTopic, test_.Waker())),
@@ -112,6 +113,9 @@ class MotionCaptureNodeTest : public testing::Test {
                       std::string(dds::Text(message.header.frame_id)),
                       {},
                       {}};
+    received.pose_about_x_m = message.pose_about_m.x;
+    received.pose_sigma_m = message.pose_translation_sigma_m;
+    received.pose_sigma_rad = message.pose_rotation_sigma_rad;
     for (const auto& marker : dds::Elements(message.markers)) {
       received.names.emplace_back(dds::Text(marker.name));
       received.valid.push_back(marker.valid);
@@ -148,6 +152,9 @@ TEST_F(MotionCaptureNodeTest, EachFrameOfTheServerIsPublishedInTheRobotsFrame) {
     EXPECT_THAT(received_[i].valid, ElementsAre(true, false, true));
     EXPECT_NEAR(received_[i].first_x_m, 1.1, 1e-6);
     EXPECT_EQ(received_[i].sigma_m, 2e-4);
+    EXPECT_EQ(received_[i].pose_about_x_m, 1.0);
+    EXPECT_EQ(received_[i].pose_sigma_m, 0.001);
+    EXPECT_EQ(received_[i].pose_sigma_rad, 0.002);
     EXPECT_GE(received_[i].stamp_ns, before_ns);
     EXPECT_LE(received_[i].stamp_ns, dds::WallClockNs());
   }
@@ -169,8 +176,8 @@ TEST_F(MotionCaptureNodeTest, WithoutFramesTheStatusIsStale) {
 
 TEST(MotionCaptureSettings, WhatCannotBeUsedIsRefused) {
   const auto start = [](const NodeConfig& config) {
-    MotionCaptureNode(config, Eigen::Isometry3d::Identity(), static_cast<int>(dds::TestDomain()),
-                      dds::BuiltInTable(), {});
+    MotionCaptureNode(config, Eigen::Isometry3d::Identity(), {},
+                      static_cast<int>(dds::TestDomain()), dds::BuiltInTable(), {});
   };
   NodeConfig config;
   config.interface_address = "localhost";
