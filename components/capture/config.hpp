@@ -22,7 +22,7 @@ struct LensConfig {
     v("intrinsics_px", intrinsics_px, {.min = -1e5, .max = 1e5},
       "fx, fy, cx, cy; pixel 0 has its centre at 0; empty: the camera's");
     v("distortion", distortion, {.min = -100.0, .max = 100.0},
-      "k1, k2, p1, p2, k3 of plumb_bob; empty: the camera's, or none");
+      "k1, k2, p1, p2, k3 and, of a rational model, k4, k5, k6; empty: the camera's, or none");
   }
 };
 

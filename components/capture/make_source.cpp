@@ -22,8 +22,14 @@ void CheckCount(const std::vector<double>& numbers, std::size_t count, const std
                    std::to_string(numbers.size()));
 }
 
+void CheckDistortion(const std::vector<double>& numbers, const std::string& key) {
+  if (numbers.empty() || numbers.size() == 5 || numbers.size() == 8) return;
+  throw InputError(key + ": 5 numbers, 8 of a rational model, or none, not " +
+                   std::to_string(numbers.size()));
+}
+
 void CheckLens(const LensConfig& lens, const std::string& key) {
-  CheckCount(lens.distortion, 5, key + ".distortion");
+  CheckDistortion(lens.distortion, key + ".distortion");
   CheckCount(lens.intrinsics_px, 4, key + ".intrinsics_px");
   if (lens.intrinsics_px.empty()) return;
   if (lens.intrinsics_px[0] < 1.0 || lens.intrinsics_px[1] < 1.0) {

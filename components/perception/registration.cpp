@@ -41,14 +41,16 @@ struct Lens {
   explicit Lens(const rgbd::CameraModel& camera) {
     for (std::size_t i = 0; i < k.size(); ++i) k[i] = static_cast<float>(camera.distortion[i]);
   }
+  /// Without a denominator it is 1 to the last bit.
   void Bend(float* x, float* y) const {
     const float a = *x, b = *y;
     const float s = a * a + b * b;
-    const float radial = 1.0f + s * (k[0] + s * (k[1] + s * k[4]));
+    const float radial =
+        (1.0f + s * (k[0] + s * (k[1] + s * k[4]))) / (1.0f + s * (k[5] + s * (k[6] + s * k[7])));
     *x = a * radial + 2.0f * k[2] * a * b + k[3] * (s + 2.0f * a * a);
     *y = b * radial + k[2] * (s + 2.0f * b * b) + 2.0f * k[3] * a * b;
   }
-  std::array<float, 5> k;
+  std::array<float, std::tuple_size_v<rgbd::Distortion>> k;
 };
 
 }  // namespace

@@ -57,8 +57,8 @@ Message<idl::sensor_msgs::CameraInfo> ToCameraInfo(const rgbd::CameraModel& came
   SetHeader(info->header, stamp_ns, frame_id);
   info->width = static_cast<std::uint32_t>(camera.width_px);
   info->height = static_cast<std::uint32_t>(camera.height_px);
-  SetText(info->distortion_model, "plumb_bob");
-  SetNumbers(info->d, camera.distortion.data(), camera.distortion.size());
+  SetText(info->distortion_model, camera.rational() ? "rational_polynomial" : "plumb_bob");
+  SetNumbers(info->d, camera.coefficients().data(), camera.coefficients().size());
   info->r[0] = info->r[4] = info->r[8] = 1.0;
   if (camera.fx_px <= 0.0) return info;
   info->k[0] = info->p[0] = camera.fx_px;

@@ -155,16 +155,23 @@ void AddScan3dControl(const rgbd::RgbdCamera& camera, FeatureTable* table) {
   }
 }
 
-void AddDistortion(const std::string& name, const std::array<double, 5>& coefficients,
+void AddDistortion(const std::string& name, const rgbd::Distortion& coefficients,
                    FeatureTable* table) {
   const std::string category = "PalpateCalibration";
   table->push_back(Feature(Kind::kEnumeration, category, name + "Selector")
-                       .Entries({{"K1", 0}, {"K2", 1}, {"P1", 2}, {"P2", 3}, {"K3", 4}})
+                       .Entries({{"K1", 0},
+                                 {"K2", 1},
+                                 {"P1", 2},
+                                 {"P2", 3},
+                                 {"K3", 4},
+                                 {"K4", 5},
+                                 {"K5", 6},
+                                 {"K6", 7}})
                        .Writable());
   table->push_back(Feature(Kind::kFloat, category, name)
                        .Values({coefficients.begin(), coefficients.end()})
                        .SelectedBy(name + "Selector")
-                       .Tip("Brown and Conrady, normalised image"));
+                       .Tip("OpenCV's rational model, normalised image"));
 }
 
 void AddCalibration(const rgbd::RgbdCamera& camera, FeatureTable* table) {

@@ -23,13 +23,17 @@ constexpr int kMaxHalvings = 30;
 constexpr int kFoldChecks = 16;
 
 struct Radial {
-  double scale = 1.0;       ///< 1 + k1 s + k2 s^2 + k3 s^3 with s = r^2
+  double scale = 1.0;       ///< (1 + k1 s + k2 s^2 + k3 s^3) / (1 + k4 s + ...) with s = r^2
   double derivative = 0.0;  ///< of it, by s
 };
 
 Radial RadialAt(const CameraModel& camera, double s) {
-  const double k1 = camera.distortion[0], k2 = camera.distortion[1], k3 = camera.distortion[4];
-  return {1.0 + s * (k1 + s * (k2 + s * k3)), k1 + s * (2.0 * k2 + s * 3.0 * k3)};
+  const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = camera.distortion;
+  const Radial above{1.0 + s * (k1 + s * (k2 + s * k3)), k1 + s * (2.0 * k2 + s * 3.0 * k3)};
+  if (!camera.rational()) return above;
+  const Radial below{1.0 + s * (k4 + s * (k5 + s * k6)), k4 + s * (2.0 * k5 + s * 3.0 * k6)};
+  const double scale = above.scale / below.scale;
+  return {scale, (above.derivative - scale * below.derivative) / below.scale};
 }
 
 Vector2d Distort(const CameraModel& camera, const Vector2d& point) {

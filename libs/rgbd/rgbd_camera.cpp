@@ -4,9 +4,12 @@
 #include "libs/rgbd/rgbd_camera.hpp"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 #include <vector>
 
 #include "libs/core/config_reader.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -16,18 +19,22 @@ namespace {
 
 constexpr int kLargestSize_px = 16384;
 constexpr int kLargestDepthValue = 65535;
-constexpr int kLongestDistortion = 5;
-constexpr std::size_t kWithoutK3 = 4;
+constexpr int kLongestDistortion = std::tuple_size_v<Distortion>;
+/// None, without k3, plumb_bob, rational.
+constexpr std::array<std::size_t, 4> kDistortionCounts{0, 4, 5, kLongestDistortion};
 // A unit of 1 is one that was meant in millimetres, a baseline of 50 as well.
 constexpr NumberRule kUnitRule{.min = 0.0, .max = 0.1, .min_open = true};
 constexpr NumberRule kBaselineRule{.min = 0.0, .max = 2.0};
 
-std::array<double, 5> ReadDistortion(const ConfigNode& node) {
+Distortion ReadDistortion(const ConfigNode& node) {
   const std::vector<double> values = ReadNumbers(node);
-  std::array<double, 5> distortion{};
-  if (!values.empty() && values.size() != kWithoutK3 && values.size() != distortion.size()) {
-    Refuse(node, "must be [k1, k2, p1, p2, k3], [k1, k2, p1, p2] or [], not a list of " +
-                     std::to_string(values.size()));
+  Distortion distortion{};
+  if (std::find(kDistortionCounts.begin(), kDistortionCounts.end(), values.size()) ==
+      kDistortionCounts.end()) {
+    Refuse(node,
+           "must be [k1, k2, p1, p2, k3, k4, k5, k6], [k1, k2, p1, p2, k3], "
+           "[k1, k2, p1, p2] or [], not a list of " +
+               std::to_string(values.size()));
   }
   std::copy(values.begin(), values.end(), distortion.begin());
   return distortion;
@@ -42,8 +49,8 @@ std::vector<Key> ModelKeys() {
            "Principal point, u. The centre of pixel (0, 0) is at u = v = 0."},
           {"cy_px", value::Real(), kRequired, "Principal point, v."},
           {"distortion", value::Numbers({}, 0, kLongestDistortion), kOptional,
-           "Lens distortion `[k1, k2, p1, p2]` or `[k1, k2, p1, p2, k3]` in OpenCV's order. `[]` "
-           "or absent: none."}};
+           "Lens distortion `[k1, k2, p1, p2]`, `[k1, k2, p1, p2, k3]` or, of a rational model, "
+           "`[k1, k2, p1, p2, k3, k4, k5, k6]` in OpenCV's order. `[]` or absent: none."}};
 }
 
 const KeyTable& DepthKeys() {
@@ -123,7 +130,8 @@ void ReadColorCamera(const ConfigNode& node, RgbdCamera* camera) {
 }
 
 std::string FormatModel(const CameraModel& model) {
-  const Eigen::Map<const Eigen::Matrix<double, 5, 1>> distortion(model.distortion.data());
+  const auto numbers = model.coefficients();
+  const Eigen::Map<const Eigen::VectorXd> distortion(numbers.data(), ToIndex(numbers.size()));
   return "  width_px: " + std::to_string(model.width_px) + "\n" +
          "  height_px: " + std::to_string(model.height_px) + "\n" +
          "  fx_px: " + FormatNumber(model.fx_px) + "\n  fy_px: " + FormatNumber(model.fy_px) +

@@ -32,9 +32,9 @@ struct RgbdCamera {
 const KeyTable& CameraFileKeys();
 
 /// Reads camera.yaml strictly; throws InputError with file:line:column. These may be missing:
-/// `color`, `distortion` (none; else k1, k2, p1, p2 and, where it is not 0, k3), `invalid_value`
-/// (0), `baseline_m` (0), `registered_to_depth` (false); `T_depth_color` of a registered image
-/// only, whose intrinsics must be those of `depth`.
+/// `color`, `distortion` (none; else k1, k2, p1, p2 and, where they are not 0, k3, k4, k5, k6),
+/// `invalid_value` (0), `baseline_m` (0), `registered_to_depth` (false); `T_depth_color` of a
+/// registered image only, whose intrinsics must be those of `depth`.
 RgbdCamera ReadCameraFile(const std::filesystem::path& file, const ConfigLoader& load);
 /// The same from a tree that stands inside another file.
 RgbdCamera ReadCamera(const ConfigNode& node);

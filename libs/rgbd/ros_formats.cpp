@@ -27,18 +27,14 @@ const ColorLayout* ColorLayoutOf(std::string_view encoding) {
   return found == kColorLayouts.end() ? nullptr : found;
 }
 
-std::optional<std::array<double, 5>> DistortionOf(std::string_view model,
-                                                  std::span<const double> d) {
-  const auto is_zero = [](double x) { return x == 0.0; };
-  std::array<double, 5> distortion{};
-  if (std::all_of(d.begin(), d.end(), is_zero)) return distortion;
+std::optional<Distortion> DistortionOf(std::string_view model, std::span<const double> d) {
+  Distortion distortion{};
+  if (std::all_of(d.begin(), d.end(), [](double x) { return x == 0.0; })) return distortion;
   const bool plumb_bob = model == "plumb_bob" && (d.size() == 4 || d.size() == 5);
-  const bool rational = model == "rational_polynomial" && d.size() == 8 &&
-                        std::all_of(d.begin() + 5, d.end(), is_zero);
+  const bool rational = model == "rational_polynomial" && d.size() == distortion.size();
   if (!plumb_bob && !rational) return std::nullopt;
-  std::copy_n(d.begin(), std::min<std::size_t>(d.size(), 5), distortion.begin());
-  const bool finite =
-      std::all_of(distortion.begin(), distortion.end(), [](double x) { return std::isfinite(x); });
+  std::copy(d.begin(), d.end(), distortion.begin());
+  const bool finite = std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); });
   return finite ? std::optional(distortion) : std::nullopt;
 }
 

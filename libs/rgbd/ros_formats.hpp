@@ -10,6 +10,8 @@
 #include <span>
 #include <string_view>
 
+#include "libs/rgbd/camera_model.hpp"
+
 namespace palpate::rgbd {
 
 /// Bytes of a pixel of a colour image, and which of them are red, green and blue.
@@ -22,9 +24,8 @@ struct ColorLayout {
 /// Of an encoding that sensor_msgs/image_encodings names; nullptr: it is no colour that is read.
 const ColorLayout* ColorLayoutOf(std::string_view encoding);
 
-/// k1, k2, p1, p2, k3 of a sensor_msgs/CameraInfo with distortion model `model` and numbers `d`.
-/// nullopt: another lens than plumb_bob, or a number that is not finite.
-std::optional<std::array<double, 5>> DistortionOf(std::string_view model,
-                                                  std::span<const double> d);
+/// Of a sensor_msgs/CameraInfo with distortion model `model` and numbers `d`. nullopt: another lens
+/// than plumb_bob and rational_polynomial, or a number that is not finite.
+std::optional<Distortion> DistortionOf(std::string_view model, std::span<const double> d);
 
 }  // namespace palpate::rgbd

@@ -28,10 +28,10 @@ std::optional<std::array<double, n>> ReadList(Features& features, const std::str
   return values;
 }
 
-std::array<double, 5> ReadDistortion(Features& features, const std::string& name) {
-  const auto values =
-      ReadList<5>(features, name, {"K1", "K2", "P1", "P2", "K3"}, kGreatestDistortion);
-  return values.value_or(std::array<double, 5>{});
+rgbd::Distortion ReadDistortion(Features& features, const std::string& name) {
+  const auto values = ReadList<std::tuple_size_v<rgbd::Distortion>>(
+      features, name, {"K1", "K2", "P1", "P2", "K3", "K4", "K5", "K6"}, kGreatestDistortion);
+  return values.value_or(rgbd::Distortion{});
 }
 
 std::optional<Eigen::Isometry3d> ReadPose(Features& features) {
@@ -69,7 +69,7 @@ ColorCalibration ReadColorCalibration(Features& features) {
   return calibration;
 }
 
-std::array<double, 5> ReadDepthDistortion(Features& features) {
+rgbd::Distortion ReadDepthDistortion(Features& features) {
   return ReadDistortion(features, "PalpateDepthDistortion");
 }
 

@@ -23,7 +23,7 @@ struct ColorCalibration {
 
 ColorCalibration ReadColorCalibration(Features& features);
 
-/// k1, k2, p1, p2, k3 of the depth camera; zeros where it reports none.
-std::array<double, 5> ReadDepthDistortion(Features& features);
+/// Of the depth camera; zeros where it reports none.
+rgbd::Distortion ReadDepthDistortion(Features& features);
 
 }  // namespace palpate::capture

@@ -45,7 +45,7 @@ struct Scan3dOverrides {
   std::optional<double> baseline_m;
   std::optional<double> distance_unit_m;
   std::optional<double> scale_c;
-  std::vector<double> distortion;  ///< k1, k2, p1, p2, k3; empty: none
+  std::vector<double> distortion;  ///< k1, k2, p1, p2, k3[, k4, k5, k6]; empty: none
 };
 
 struct Scan3dReading {

@@ -15,7 +15,7 @@ namespace palpate::capture {
 /// What the user knows better about the colour camera. Unset: the camera's own.
 struct ColorOverrides {
   std::optional<double> fx_px, fy_px, cx_px, cy_px;
-  std::vector<double> distortion;  ///< k1, k2, p1, p2, k3; empty: none
+  std::vector<double> distortion;  ///< k1, k2, p1, p2, k3[, k4, k5, k6]; empty: none
   std::optional<bool> registered;
   std::optional<Eigen::Isometry3d> T_depth_color;
 };

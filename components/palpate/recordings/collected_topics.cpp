@@ -70,8 +70,8 @@ std::string SetDistortion(const std::string& name, const std::vector<double>& d,
   const auto distortion = rgbd::DistortionOf(name, d);
   if (!distortion) {
     return "distortion model '" + name + "' with " + std::to_string(d.size()) +
-           " numbers instead of plumb_bob with 5 finite ones: record the rectified image "
-           "(image_rect)";
+           " numbers instead of plumb_bob with 5 finite ones or rational_polynomial with 8: record "
+           "the rectified image (image_rect)";
   }
   model->distortion = *distortion;
   return {};

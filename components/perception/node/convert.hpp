@@ -25,7 +25,8 @@ Status FromColorImage(const idl::sensor_msgs::Image& message, rgbd::ColorImage* 
 Status CheckImageSize(const idl::sensor_msgs::Image& message, std::uint32_t pixel_bytes);
 
 /// One lens; where K is all zeros the focal lengths are 0: not calibrated. kInvalidInput for
-/// numbers that are not finite, an image without pixels, another distortion model than plumb_bob.
+/// numbers that are not finite, an image without pixels, a lens that DistortionOf does not
+/// take.
 Status FromCameraInfo(const idl::sensor_msgs::CameraInfo& message, rgbd::CameraModel* camera);
 
 /// What holds for an epoch of a camera.

@@ -157,8 +157,8 @@ Status FromDriverInfo(const CameraInfo& message, bool rectified, rgbd::CameraMod
   if (!distortion) {
     return Invalid("distortion model '" + std::string(dds::Text(message.distortion_model)) +
                    "' with " + std::to_string(message.d._length) +
-                   " numbers instead of plumb_bob with 5: take the driver's rectified image "
-                   "(.../image_rect)");
+                   " numbers instead of plumb_bob with 5 or rational_polynomial with 8: take the "
+                   "driver's rectified image (.../image_rect)");
   }
   camera->distortion = *distortion;
   return Status::Ok();

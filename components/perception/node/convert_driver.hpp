@@ -28,7 +28,7 @@ Status FromDriverColor(const idl::sensor_msgs::Image& message, rgbd::ColorImage*
 /// JPEG or PNG.
 Status FromDriverColor(const idl::sensor_msgs::CompressedImage& message, rgbd::ColorImage* image);
 
-/// plumb_bob with four or five numbers, rational_polynomial whose last three are 0. `rectified`: of
+/// plumb_bob with four or five numbers, rational_polynomial with eight. `rectified`: of
 /// an image without distortion, whose intrinsics are in P. Focal lengths of 0 mean that the driver
 /// has no intrinsics.
 Status FromDriverInfo(const idl::sensor_msgs::CameraInfo& message, bool rectified,

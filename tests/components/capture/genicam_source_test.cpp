@@ -35,7 +35,7 @@ void ExpectNear(const rgbd::CameraModel& a, const rgbd::CameraModel& b) {
   EXPECT_NEAR(a.fy_px, b.fy_px, 1e-3);
   EXPECT_NEAR(a.cx_px, b.cx_px, 1e-3);
   EXPECT_NEAR(a.cy_px, b.cy_px, 1e-3);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(a.distortion[i], b.distortion[i], 1e-7);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(a.distortion[i], b.distortion[i], 1e-7);
 }
 
 TEST(GenicamSource, EveryPixelArrivesAsItWasSent) {

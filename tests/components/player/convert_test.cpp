@@ -38,7 +38,7 @@ TEST(PlayerConvert, MarkersKeepNameFramePlaceNoiseAndReference) {
 }
 
 TEST(PlayerConvert, TheErrorOfThePoseGoesOutWithTheMarkers) {
-  Event event = SampleEvent({});
+  Event event = EventWith({});
   EXPECT_EQ(ToMarkerArray(event, 0)->pose_translation_sigma_m, 0.0);
   event.markers->pose_error = {.translation_m = 0.001, .rotation_rad = 0.002};
   event.markers->pose_about_m.z() = 0.5;

@@ -248,7 +248,7 @@ TEST_F(Gvcp, SelectorsChangeWhatIsRead) {
     EXPECT_EQ(client->ReadMemory(At("PalpateDepthDistortion"), 8, &value), ErrorCode::kSuccess);
     return DecodeDouble(value);
   };
-  for (std::uint32_t i = 0; i < 5; ++i) EXPECT_EQ(coefficient(i), camera.depth.distortion[i]);
+  for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(coefficient(i), camera.depth.distortion[i]);
 }
 
 }  // namespace

@@ -20,18 +20,20 @@ CameraModel Straight() {
           .cy_px = 238.5};
 }
 
-CameraModel WithDistortion(const std::array<double, 5>& distortion) {
+CameraModel WithDistortion(const Distortion& distortion) {
   CameraModel camera = Straight();
   camera.distortion = distortion;
   return camera;
 }
 
-/// Lenses as they are sold: barrel, pincushion, wavy (k1 and k2 of opposite signs), decentred.
-const std::vector<std::array<double, 5>> kLenses = {{0.0, 0.0, 0.0, 0.0, 0.0},
-                                                    {-0.08, 0.0, 0.0, 0.0, 0.0},
-                                                    {0.15, -0.30, 1e-3, -2e-3, 0.11},
-                                                    {-0.055, 0.065, 4e-4, 8e-4, -0.021},
-                                                    {0.0, 0.0, 3e-3, -4e-3, 0.0}};
+/// Lenses as they are sold: barrel, pincushion, wavy (k1 and k2 of opposite signs), decentred, and
+/// rational with a numerator and a denominator that nearly cancel, as calibrations find them.
+const std::vector<Distortion> kLenses = {{},
+                                         {-0.08},
+                                         {0.15, -0.30, 1e-3, -2e-3, 0.11},
+                                         {-0.055, 0.065, 4e-4, 8e-4, -0.021},
+                                         {0.0, 0.0, 3e-3, -4e-3, 0.0},
+                                         {6.3, 4.1, -3e-4, 2e-4, 0.2, 6.7, 6.2, 1.1}};
 
 TEST(CameraModel, SeesAPointWhereThePinholeSaysByHand) {
   EXPECT_TRUE(Project(Straight(), {0.2, -0.1, 0.5})
@@ -47,6 +49,15 @@ TEST(CameraModel, DistortsAsBrownAndConradyByHand) {
   const Eigen::Vector2d pixel = Project(camera, {0.2, -0.1, 0.5});
   EXPECT_NEAR(pixel.x(), 425.5 * x_seen + 421.75, 1e-11);
   EXPECT_NEAR(pixel.y(), 430.25 * y_seen + 238.5, 1e-11);
+}
+
+TEST(CameraModel, DistortsByTheRationalModelByHand) {
+  const CameraModel camera = WithDistortion({0.1, -0.2, 0.003, -0.004, 0.05, 0.3, 0.02, -0.01});
+  const double x = 0.4, y = -0.2, s = x * x + y * y;
+  const double radial = (1 + 0.1 * s - 0.2 * s * s + 0.05 * s * s * s) /
+                        (1 + 0.3 * s + 0.02 * s * s - 0.01 * s * s * s);
+  const double x_seen = x * radial + 2 * 0.003 * x * y - 0.004 * (s + 2 * x * x);
+  EXPECT_NEAR(Project(camera, {0.2, -0.1, 0.5}).x(), 425.5 * x_seen + 421.75, 1e-11);
 }
 
 TEST(CameraModel, UnprojectIsTheInverseOfProjectInEveryPixel) {
@@ -102,8 +113,8 @@ TEST(CameraModel, TakesTheSolutionOnTheCentresSideOfAFold) {
 
 TEST(CameraModel, SeesNoDistortionOnlyWhereEveryCoefficientIsZero) {
   EXPECT_FALSE(Straight().distorted());
-  for (std::size_t i = 0; i < 5; ++i) {
-    std::array<double, 5> one{};
+  for (std::size_t i = 0; i < Distortion().size(); ++i) {
+    Distortion one{};
     one[i] = 1e-3;
     EXPECT_TRUE(WithDistortion(one).distorted());
   }

@@ -76,10 +76,13 @@ TEST(RgbdCamera, ReadsEveryKey) {
 
 TEST(RgbdCamera, DistortionMayEndBeforeItsLastNumberOrBeNone) {
   const std::string five = "distortion: [0.1, -0.2, 0.003, -0.004, 0.05]";
-  const std::array<double, 5> without_k3{0.1, -0.2, 0.003, -0.004, 0.0};
+  const Distortion without_k3{0.1, -0.2, 0.003, -0.004};
   EXPECT_EQ(Parse(With(five, "distortion: [0.1, -0.2, 0.003, -0.004]")).depth.distortion,
             without_k3);
   EXPECT_FALSE(Parse(With(five, "distortion: []")).depth.distorted());
+  const RgbdCamera rational = Parse(With(five, "distortion: [1, 2, 0, 0, 3, 4, 5, 6]"));
+  EXPECT_TRUE(rational.depth.rational());
+  EXPECT_EQ(Parse(FormatCameraFile(rational)).depth, rational.depth);
 }
 
 TEST(RgbdCamera, OneCameraIsAnotherWhereAnyOfItsNumbersIs) {

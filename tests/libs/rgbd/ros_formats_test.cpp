@@ -11,14 +11,14 @@
 namespace palpate::rgbd {
 namespace {
 
-TEST(RosFormats, ALensOfPlumbBobIsTakenAndOthersAreNot) {
-  using Five = std::array<double, 5>;
+TEST(RosFormats, LensesOfPlumbBobAndTheRationalModelAreTakenAndOthersAreNot) {
   EXPECT_EQ(DistortionOf("plumb_bob", std::vector{0.1, 0.2, 0.3, 0.4}),
-            (Five{0.1, 0.2, 0.3, 0.4, 0.0}));
-  EXPECT_EQ(DistortionOf("rational_polynomial", std::vector{0.1, 0.2, 0.3, 0.4, 0.5, 0., 0., 0.}),
-            (Five{0.1, 0.2, 0.3, 0.4, 0.5}));
-  EXPECT_EQ(DistortionOf("", {}), Five{});
-  EXPECT_FALSE(DistortionOf("rational_polynomial", std::vector{0., 0., 0., 0., 0., 1., 0., 0.}));
+            (Distortion{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(
+      DistortionOf("rational_polynomial", std::vector{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}),
+      (Distortion{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}));
+  EXPECT_EQ(DistortionOf("", {}), Distortion{});
+  EXPECT_FALSE(DistortionOf("rational_polynomial", std::vector{0.1, 0.2, 0.3, 0.4, 0.5}));
   EXPECT_FALSE(DistortionOf("equidistant", std::vector{0.1, 0.2, 0.3, 0.4}));
 }
 

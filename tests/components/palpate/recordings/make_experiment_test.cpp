@@ -272,9 +272,11 @@ TEST_F(MakeExperimentTest, AnUnknownLensIsRefusedWithTheRemedy) {
                 CameraInfoMessage("optical", 2, 1, "equidistant", {0.1, 0.2, 0.3, 0.4}));
   messages_.Add("/d/image", kImage, kStart_ns,
                 ImageMessage(kStart_ns, "optical", 2, 1, "16UC1", 4, {1, 2, 3, 4}));
-  EXPECT_THAT(Refusal(),
-              HasSubstr("/d/camera_info: distortion model 'equidistant' with 4 numbers "
-                        "instead of plumb_bob with 5 finite ones: record the rectified image"));
+  EXPECT_THAT(
+      Refusal(),
+      HasSubstr("/d/camera_info: distortion model 'equidistant' with 4 numbers "
+                "instead of plumb_bob with 5 finite ones or rational_polynomial with 8: record "
+                "the rectified image"));
 }
 
 TEST_F(MakeExperimentTest, ARecordingWithoutMeasurementsIsRefusedWithItsTopics) {
