@@ -59,6 +59,9 @@ void HealthReporter::Report(const Status& status, const HealthCounts& counts,
   const Status judged = WithConflict(status, now);
   ExchangeClocks();
   KeysAndValues values = ClockValues();
+  if (const CommandedFault* fault = participant_.fault()) {
+    values.emplace_back("fault_on_command", ToString(fault->kind()));
+  }
   values.insert(values.end(), extra.begin(), extra.end());
   const auto message = Fill(judged, counts, now);
   // A report that is not taken shows in failed_count(); the next one follows in a second.

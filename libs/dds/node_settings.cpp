@@ -59,6 +59,7 @@ ParticipantSettings ParticipantOf(const NodeSettings& settings, std::string node
           .remap = settings.remap,
           .use_sim_time = settings.use_sim_time,
           .parameters = settings.parameters,
+          .allow_faults = settings.allow_faults,
           .remote_raw = settings.remote_raw,
           .security = std::move(security)};
 }

@@ -25,6 +25,7 @@ struct NodeSettings {
   std::string ros_distribution = "auto";
   std::vector<Parameter> parameters = {};  ///< all settings of the process, to be shown to ROS 2
   bool remote_raw = true;
+  bool allow_faults = false;
   std::filesystem::path security;
   std::string identity;
 
@@ -42,6 +43,8 @@ struct NodeSettings {
     v("remote_raw", remote_raw,
       "Share raw images with other hosts and with ROS 2; false: with processes of this host that "
       "have false, too");
+    v("allow_faults", allow_faults,
+      "Let `palpate fail` make the data of this process faulty, for tests of a system");
     v("security", security,
       "Keystore (`palpate security init`) of a secured domain; empty: the environment variable "
       "PALPATE_SECURITY_DIR, else ROS 2's, else the domain is not secured");

@@ -24,6 +24,12 @@ std::unique_ptr<ParameterServices> MakeParameters(dds_entity_t participant, cons
   }
 }
 
+std::vector<Parameter> WithFault(std::vector<Parameter> parameters, CommandedFault* fault) {
+  if (parameters.empty() && fault == nullptr) return parameters;
+  for (Parameter& parameter : FaultParameters(fault)) parameters.push_back(std::move(parameter));
+  return parameters;
+}
+
 TopicTable WithRawKept(const TopicTable& table, bool remote_raw) {
   std::vector<TopicSettings> rows = table.topics();
   for (TopicSettings& row : rows) row.this_host_only = row.raw && !remote_raw;
@@ -40,12 +46,21 @@ Participant::Participant(const ParticipantSettings& settings, TopicTable table)
       entity_(CreateParticipant(settings.domain_id, settings.security)),
       graph_(entity_.handle(), names_.node_namespace(), names_.node_name(), settings.gid_layout),
       clock_(std::make_shared<RosClock>()),
-      parameters_(MakeParameters(entity_.handle(), names_, settings.parameters)) {
+      fault_(settings.allow_faults ? std::make_shared<CommandedFault>([this](const auto& line) {
+        WriteLog(Severity::kWarning, line);
+      })
+                                   : nullptr),
+      parameters_(
+          MakeParameters(entity_.handle(), names_, WithFault(settings.parameters, fault_.get()))) {
   if (parameters_) graph_.Add(parameters_->writers(), parameters_->readers());
   if (!settings.use_sim_time) return;
   const TopicSettings& topic = table_.At(kClockTopic.name);
   clock_ = std::make_shared<RosClock>(handle(), topic, names_.Resolve(topic));
   graph_.AddReader(clock_->reader()->handle());
+}
+
+bool Participant::IsData(std::string_view topic_name) const {
+  return !table_.At(topic_name).global && topic_name != kComponentStatusTopic.name;
 }
 
 RawWriterTopic Participant::KeptHere(RawWriterTopic topic) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "libs/core/severity.hpp"
+#include "libs/dds/commanded_fault.hpp"
 #include "libs/dds/domain.hpp"
 #include "libs/dds/entity.hpp"
 #include "libs/dds/parameter_services.hpp"
@@ -35,6 +36,7 @@ struct ParticipantSettings {
   std::vector<std::string> remap = {};     ///< TopicNames
   bool use_sim_time = false;               ///< take the time from /clock
   std::vector<Parameter> parameters = {};  ///< that its WaitSet answers for; empty: no services
+  bool allow_faults = false;               ///< on command, by parameters
   bool remote_raw = true;  ///< false: raw images stay on this host (TopicSettings::raw)
   SecuritySettings security = {};
 };
@@ -48,6 +50,8 @@ class Participant {
   /// names and rules that are none (TopicNames), for settings of Cyclone DDS that contradict each
   /// other (domain_settings.hpp), and for files that do not allow a secured start (SetSecurity).
   Participant(const ParticipantSettings& settings, TopicTable table);
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
 
   dds_entity_t handle() const { return entity_.handle(); }
   const TopicTable& table() const { return table_; }
@@ -56,6 +60,8 @@ class Participant {
   const std::shared_ptr<RosClock>& clock() const { return clock_; }
   /// What its parameters are asked by; nullptr: none, or DDS Security does not allow them.
   ParameterServices* parameters() const { return parameters_.get(); }
+  /// The fault that writers of data have on command; nullptr: none is allowed.
+  CommandedFault* fault() const { return fault_.get(); }
   /// ns since 1970 by that clock.
   std::int64_t Now_ns() const { return clock_->Now_ns(); }
   uint32_t domain_id() const { return domain_id_; }
@@ -69,6 +75,7 @@ class Participant {
     Writer<T> writer(handle(), table_.At(topic.name), RosName(topic.name, name),
                      std::move(on_change));
     graph_.AddWriter(writer.handle());
+    if (fault_ && IsData(topic.name)) writer.Follow(fault_);
     written_.push_back({writer.ros_name(), table_.At(topic.name).sole_writer});
     return writer;
   }
@@ -114,6 +121,8 @@ class Participant {
   std::string ResolvedName(std::string_view topic_name) const { return RosName(topic_name, {}); }
 
  private:
+  /// Whether a topic has data, in contrast to what says how processes fare.
+  bool IsData(std::string_view topic_name) const;
   RawWriterTopic KeptHere(RawWriterTopic topic) const;
   std::string RosName(std::string_view topic_name, const std::string& name) const {
     return names_.Resolve(table_.At(topic_name), name);
@@ -128,6 +137,7 @@ class Participant {
   std::vector<Written> written_;
   Log log_;
   std::shared_ptr<RosClock> clock_;
+  std::shared_ptr<CommandedFault> fault_;
   std::unique_ptr<ParameterServices> parameters_;
 };
 

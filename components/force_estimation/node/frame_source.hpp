@@ -38,6 +38,7 @@ struct SequenceStart {
 struct FrameArrival {
   std::variant<FrameInput, RefusedFrame, RepeatedFrame> frame;
   std::optional<SequenceStart> sequence = std::nullopt;  ///< which the frame begins
+  std::optional<double> delay_s = std::nullopt;  ///< from its sender to here; nullopt: not known
   bool counts = true;  ///< as received; false for a repeated part of a frame
 };
 

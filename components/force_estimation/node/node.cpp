@@ -76,6 +76,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
       calibration_(participant_, worker_.model()),
       in_use_(calibration),
+      lateness_(config.late_s),
       force_lines_(SecondsNow()),
       source_(MakeSource()),
       inputs_(participant_, loop_, log_) {
@@ -123,6 +124,7 @@ void ForceEstimationNode::Take(FrameArrival arrival) {
     ++counts_.received;
     last_frame_ = Clock::now();
   }
+  if (arrival.delay_s) lateness_.Add(*arrival.delay_s);
   if (arrival.sequence) BeginSequence(*arrival.sequence);
   if (auto* input = std::get_if<FrameInput>(&arrival.frame)) {
     Accept(std::move(*input));
@@ -346,7 +348,8 @@ bool ForceEstimationNode::IsSilent() const {
   return counts_.received > 0 && SecondsSince(last_frame_) > config_.silence_s;
 }
 
-Status ForceEstimationNode::CurrentStatus() const {
+Status ForceEstimationNode::CurrentStatus() {
+  const Status& late = lateness_.Judge(source_->name());
   if (IsSilent()) {
     return {StatusCode::kStale, "no " + source_->name() + " for " +
                                     FormatNumber(std::round(SecondsSince(last_frame_))) + " s"};
@@ -356,7 +359,7 @@ Status ForceEstimationNode::CurrentStatus() const {
     return {StatusCode::kNoCalibration, drift_.advice};
   }
   const bool usable = IsUsable(last_status_) || last_status_.code() == StatusCode::kNoCalibration;
-  return usable ? Status::Ok() : last_status_;
+  return usable ? late : last_status_;
 }
 
 }  // namespace palpate::force_estimation

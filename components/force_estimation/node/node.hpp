@@ -16,6 +16,7 @@
 #include "components/force_estimation/node/node_config.hpp"
 #include "components/force_estimation/node/outputs.hpp"
 #include "components/force_estimation/node/worker.hpp"
+#include "libs/core/lateness.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
@@ -60,7 +61,7 @@ class ForceEstimationNode {
   void PublishResults();
   void ReportHealth();
   bool IsSilent() const;
-  Status CurrentStatus() const;
+  Status CurrentStatus();
   void LogDrift(const DriftReport& drift);
   void LogBiasFrames(int to_come);
   void LogGap(const GapReport& gap);
@@ -87,6 +88,7 @@ class ForceEstimationNode {
   bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
   std::shared_ptr<const NewCalibration> calibration_pending_;  ///< for that frame
   bool maker_is_given_;
+  Lateness lateness_;  ///< of frames
   dds::HealthCounts counts_;
   Status last_status_;
   DriftReport drift_;

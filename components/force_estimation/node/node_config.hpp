@@ -23,6 +23,7 @@ struct NodeConfig : Config {
   double cable_wait_s = 0.5;
   double max_cable_age_s = 0.5;
   double silence_s = 2.0;
+  double late_s = 0.3;
   dds::NodeSettings dds;
 
   template <typename Visitor>
@@ -52,6 +53,9 @@ struct NodeConfig : Config {
     v("silence_s", silence_s, {.min = 0.0, .min_open = true},
       "Time without frames after which the status is stale; with source shape, /forces says so "
       "once a second");
+    v("late_s", late_s, {.min = 0.0},
+      "Time from perception to this process from which clouds are late, and the status is stale; "
+      "0: none is");
     v("dds", dds, "DDS side");
   }
 };

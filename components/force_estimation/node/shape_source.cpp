@@ -4,10 +4,12 @@
 #include "components/force_estimation/node/shape_source.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/stamp.hpp"
@@ -27,7 +29,8 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
       T_robot_camera_(T_robot_camera),
       clouds_(participant.CreateReader(dds::kRobotCloudTopic)),
       reports_(participant.CreateReader(dds::kPerceptionReportTopic)),
-      contacts_(participant.CreateReader(dds::kContactsTopic)) {
+      contacts_(participant.CreateReader(dds::kContactsTopic)),
+      clock_(participant.clock()) {
   loop.Attach(clouds_, [this] { TakeClouds(); });
   loop.Attach(reports_, [this] { TakeReports(); });
   loop.Attach(contacts_, [this] { TakeContacts(); });
@@ -75,12 +78,25 @@ void ShapeSource::TakeClouds() {
     if (!parts) continue;
     Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
     if (status.ok()) status = dds::FromPointCloud2(message, &parts->cloud.emplace());
+    if (status.ok()) status = CheckIsNew(message, *parts->cloud);
     if (!status.ok()) {
       parts->cloud.emplace();
       parts->status = {status.code(), "/perception/robot_cloud: " + status.message()};
     }
   }
   HandOverComplete();
+}
+
+/// Points that come again under a new stamp are no measurement: forces of them would be those of
+/// the past.
+Status ShapeSource::CheckIsNew(const idl::sensor_msgs::PointCloud2& message,
+                               const rgbd::SensedCloud& cloud) {
+  if (cloud.Count() == 0) return Status::Ok();
+  const std::string_view bytes(reinterpret_cast<const char*>(message.data._buffer),
+                               message.data._length);
+  if (!repetition_.IsRepeated(bytes, cloud.points_m.row(2).mean())) return Status::Ok();
+  return {StatusCode::kStale,
+          "the points are those before, bit for bit, under a new stamp: perception is stuck"};
 }
 
 void ShapeSource::TakeReports() {
@@ -91,7 +107,8 @@ void ShapeSource::TakeReports() {
     parts->report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device)),
                             dds::ToPicture(message.picture)},
                            message.frame_counter,
-                           StatusOfPerception(message)};
+                           StatusOfPerception(message),
+                           message.age_s};
   }
   HandOverComplete();
 }
@@ -146,6 +163,7 @@ FrameArrival ShapeSource::ArrivalOf(Parts parts) {
   const Report& report = *parts.report;
   FrameArrival arrival;
   arrival.sequence = SequenceOf(report.origin);
+  arrival.delay_s = NsToSeconds(clock_->NowOfFrames_ns() - parts.stamp_ns) - report.age_s;
   last_head_ = {parts.stamp_ns, report.frame_counter, report.origin.device,
                 dds::WaitSet::Clock::now()};
   const Status status = Check(parts);
@@ -164,6 +182,7 @@ std::optional<SequenceStart> ShapeSource::SequenceOf(const Origin& origin) {
   const bool unrelated =
       !last_ || origin.device != last_->device || (back && origin.epoch <= last_->epoch);
   last_ = origin;
+  if (unrelated) repetition_.Forget();
   if (!back && !unrelated) return std::nullopt;
   return SequenceStart{back, unrelated};
 }

@@ -5,10 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "components/force_estimation/node/frame_source.hpp"
+#include "libs/core/repetition_check.hpp"
 #include "libs/dds/driver_topics.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/transforms.hpp"
@@ -52,6 +54,7 @@ class ShapeSource : public FrameSource {
     Origin origin;
     uint64_t frame_counter = 0;
     Status perception;
+    double age_s = 0.0;  ///< of the frame, when it was sent
   };
   /// The parts of a frame that have come so far.
   struct Parts {
@@ -63,6 +66,7 @@ class ShapeSource : public FrameSource {
   };
 
   void TakeClouds();
+  Status CheckIsNew(const idl::sensor_msgs::PointCloud2& message, const rgbd::SensedCloud& cloud);
   void TakeReports();
   void TakeContacts();
   void TakeTransforms(dds::Reader<idl::tf2_msgs::TFMessage>& reader);
@@ -91,6 +95,8 @@ class ShapeSource : public FrameSource {
   dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;
   dds::Reader<idl::palpate_msgs::ContactArray> contacts_;
   std::deque<Parts> pending_;  ///< in the order in which their first part came
+  std::shared_ptr<dds::RosClock> clock_;
+  RepetitionCheck repetition_;  ///< of clouds
   std::optional<Origin> last_;
   FrameHead last_head_;
   uint64_t dropped_ = 0;

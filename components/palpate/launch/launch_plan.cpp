@@ -65,6 +65,7 @@ std::vector<std::string> ArgumentsOf(const SystemFile& system, const ProcessPlan
     }
     add("--config", plan.settings.string());
   }
+  if (system.allow_faults) add("--set", "dds.allow_faults=true");
   for (const std::string& assignment : plan.set) add("--set", assignment);
   if (!system.node_namespace.empty()) add("--remap", "__ns:=" + system.node_namespace);
   for (const std::string& rule : plan.remap) add("--remap", rule);

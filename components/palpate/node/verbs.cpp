@@ -15,6 +15,7 @@
 #include "components/palpate/node/play/play_verb.hpp"
 #include "components/palpate/node/record/record_verb.hpp"
 #include "components/palpate/node/security/security_verb.hpp"
+#include "components/palpate/node/topics/fail_verb.hpp"
 #include "components/palpate/node/topics/node_verbs.hpp"
 #include "components/palpate/node/topics/param_verbs.hpp"
 #include "components/palpate/node/topics/topic_verbs.hpp"
@@ -31,11 +32,10 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
-      DemoVerb(),     LaunchVerb(),    SolveVerb(),  SimulateVerb(), CalibrateVerb(),
-      EstimateVerb(), DiagnoseVerb(),  ImportVerb(), CaptureVerb(),  WatchVerb(),
-      HealthVerb(),   DoctorVerb(),    TopicVerb(),  NodeVerb(),     ParamVerb(),
-      RecordVerb(),   PlayVerb(),      RepairVerb(), ExportVerb(),   InfoVerb(),
-      SecurityVerb(), ReferenceVerb(),
+      DemoVerb(),     LaunchVerb(), SolveVerb(),   SimulateVerb(), CalibrateVerb(), EstimateVerb(),
+      DiagnoseVerb(), ImportVerb(), CaptureVerb(), WatchVerb(),    HealthVerb(),    DoctorVerb(),
+      TopicVerb(),    NodeVerb(),   ParamVerb(),   FailVerb(),     RecordVerb(),    PlayVerb(),
+      RepairVerb(),   ExportVerb(), InfoVerb(),    SecurityVerb(), ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);

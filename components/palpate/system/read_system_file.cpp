@@ -254,6 +254,7 @@ SystemFile ReadSystemFile(const std::filesystem::path& file, const ConfigLoader&
     for (const ConfigNode& peer : peers->items) CheckAddress(peer, peer.text);
   }
   reader.Read("security", &system.security);
+  reader.Read("allow_faults", &system.allow_faults);
   if (const ConfigNode* stop = reader.Optional("stop")) system.stop = ReadStop(*stop);
   reader.Optional("variables");
   system.hosts = ReadHosts(reader.Require("hosts"));

@@ -63,6 +63,7 @@ struct SystemFile {
   std::string transport;           ///< TransportNames(); empty: CYCLONEDDS_URI, else the default
   std::vector<std::string> peers;  ///< addresses of hosts outside this file
   std::filesystem::path security;  ///< empty: none
+  bool allow_faults = false;       ///< `palpate fail` may act on the components
   StopPlan stop;
   std::vector<HostPlan> hosts;
 };

@@ -172,6 +172,8 @@ const KeyTable& SystemFileKeys() {
                {"security", value::File(), kOptional,
                 "Folder with the identities and permissions of the processes. Absent: no "
                 "security."},
+               {"allow_faults", value::Boolean(), Default(false),
+                "`palpate fail` may make the data of the components faulty, to test the system."},
                {"stop", value::Map(StopKeys()), kOptional, "How processes are stopped."},
                {"variables", value::Map(VariableKeys()), kOptional,
                 "Values for the command line to change. Absent: none."},

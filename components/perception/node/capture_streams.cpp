@@ -96,7 +96,8 @@ void CaptureStreams::TakeFacts() {
   TakeCamera();
   for (const auto& message : infos_.Take()) {
     if (dds::StampNs(message.header.stamp) == pairing_.last_stamp_ns()) continue;
-    if (FrameSet* set = PartOf(message)) set->facts = {message.counter, message.epoch};
+    if (FrameSet* set = PartOf(message))
+      set->facts = {message.counter, message.epoch, message.stamp_receive_ns};
   }
   events_.changed();
 }

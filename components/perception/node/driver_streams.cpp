@@ -143,7 +143,7 @@ void DriverStreams::AddDepth(const Message& message) {
   const Status status = FromDriverDepth(message, config_.depth_unit_m, largest_z_m_,
                                         &set.depth.emplace(), &depth_unit_m_);
   if (!status.ok()) set.status = {status.code(), depths().ros_name() + ": " + status.message()};
-  set.facts = {counter_++, kEpoch};
+  set.facts = {counter_++, kEpoch, 0};
   pairing_.AddDepth(std::move(set), Clock::now());
 }
 

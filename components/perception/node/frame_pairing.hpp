@@ -18,6 +18,7 @@ namespace palpate::perception {
 struct FrameFacts {
   std::uint64_t counter = 0;
   std::uint32_t epoch = 0;
+  std::int64_t received_ns = 0;  ///< when the host of the camera had it; 0: not known
 };
 
 /// Depth, colour and facts of one stamp, as far as they have come.

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "components/perception/node/capture_streams.hpp"
 #include "components/perception/node/driver_streams.hpp"
@@ -49,6 +52,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       streams_{MakeStreams()},
       worker_{
           {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
+      lateness_{config.late_s},
       inputs_{participant_, loop_, log_} {
   AttachReaders();
   ExpectInputs();
@@ -187,6 +191,7 @@ bool PerceptionNode::BeginsSequence(const FrameSet& set) const {
 void PerceptionNode::Work(FrameSet set) {
   rgbd::RgbdCamera camera;
   Status status = streams_->Examine(set, &camera);
+  if (status.ok()) status = CheckIsNew(set);
   if (status.ok()) status = FollowFrames();
   if (status.ok()) {
     worker_.Start(MakeJob(set, camera));
@@ -198,6 +203,24 @@ void PerceptionNode::Work(FrameSet set) {
   refused.outcome.observation.stamp_ns = set.stamp_ns;
   refused.outcome.observation.frame.status = status;
   Publish(refused.outcome, set.taken);
+}
+
+/// An image that comes again under a new stamp is no measurement: forces of it would be those of
+/// the past.
+Status PerceptionNode::CheckIsNew(const FrameSet& set) {
+  if (set.facts && set.facts->received_ns != 0) {
+    lateness_.Add(NsToSeconds(participant_.clock()->NowOfFrames_ns() - set.facts->received_ns) -
+                  SecondsSince(set.taken));
+  }
+  if (BeginsSequence(set)) repetition_.Forget();
+  const std::vector<std::uint16_t>& depths = set.depth->values;
+  const std::string_view bytes(reinterpret_cast<const char*>(depths.data()),
+                               depths.size() * sizeof(std::uint16_t));
+  const auto sum = std::accumulate(depths.begin(), depths.end(), std::uint64_t{0});
+  if (!repetition_.IsRepeated(bytes, static_cast<double>(sum))) return Status::Ok();
+  return {StatusCode::kStale, streams_->depths().ros_name() +
+                                  ": the image is the one before, pixel for pixel, under a new "
+                                  "stamp: the camera or its process is stuck"};
 }
 
 Status PerceptionNode::FollowFrames() {
@@ -291,13 +314,14 @@ bool PerceptionNode::IsSilent() const {
   return streams_->received() == 0 || SecondsSince(streams_->last_depth()) > config_.silence_s;
 }
 
-Status PerceptionNode::CurrentStatus() const {
+Status PerceptionNode::CurrentStatus() {
+  const Status& late = lateness_.Judge("frames");
   if (streams_->received() > 0 && IsSilent()) {
     return {StatusCode::kStale, "no depth images for " +
                                     FormatNumber(std::round(SecondsSince(streams_->last_depth()))) +
                                     " s"};
   }
-  return last_status_;
+  return last_status_.ok() ? late : last_status_;
 }
 
 }  // namespace palpate::perception

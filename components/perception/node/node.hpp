@@ -14,6 +14,8 @@
 #include "components/perception/node/outputs.hpp"
 #include "components/perception/node/prediction_history.hpp"
 #include "components/perception/node/worker.hpp"
+#include "libs/core/lateness.hpp"
+#include "libs/core/repetition_check.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
@@ -56,6 +58,7 @@ class PerceptionNode {
   Clock::time_point PredictionOverdue() const;
   bool MustAwaitPrediction() const;
   void Work(FrameSet set);
+  Status CheckIsNew(const FrameSet& set);
   Status FollowFrames();
   PerceptionJob HeadOf(const FrameSet& set) const;
   PerceptionJob MakeJob(FrameSet& set, const rgbd::RgbdCamera& camera);
@@ -63,7 +66,7 @@ class PerceptionNode {
   void Publish(const FrameOutcome& outcome, Clock::time_point taken);
   void ReportHealth();
   bool IsSilent() const;
-  Status CurrentStatus() const;
+  Status CurrentStatus();
 
   NodeConfig config_;
   CameraPose pose_;
@@ -88,6 +91,8 @@ class PerceptionNode {
   std::uint32_t last_epoch_ = 0;
   std::string last_device_;
   Clock::time_point published_at_;
+  RepetitionCheck repetition_;  ///< of depth images
+  Lateness lateness_;           ///< of frames
   dds::HealthCounts counts_;
   Status last_status_{StatusCode::kNotRun, "no images on /camera/depth/image_raw yet"};
   dds::InputMonitor inputs_;

@@ -19,6 +19,7 @@ struct NodeConfig : Config {
   double max_prediction_age_s = 1.0;
   double await_prediction_s = 0.0;
   double silence_s = 2.0;
+  double late_s = 0.3;
   CameraConfig camera;
   dds::NodeSettings dds;
 
@@ -40,6 +41,9 @@ struct NodeConfig : Config {
       "newest state (live)");
     v("silence_s", silence_s, {.min = 0.0, .min_open = true},
       "Time without depth images after which the status is stale");
+    v("late_s", late_s, {.min = 0.0},
+      "Time from the camera's host to this process from which frames are late, and the status is "
+      "stale; 0: none is");
     v("camera", camera, "Where images come from");
     v("dds", dds, "DDS side");
   }

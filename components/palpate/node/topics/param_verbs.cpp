@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,23 +13,18 @@
 #include <vector>
 
 #include "components/palpate/node/topics/graph_options.hpp"
-#include "components/palpate/node/topics/node_verbs.hpp"
+#include "components/palpate/node/topics/parameter_node.hpp"
 #include "components/palpate/node/topics/parameter_text.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/core/error.hpp"
-#include "libs/core/text.hpp"
 #include "libs/dds/domain_graph.hpp"
 #include "libs/dds/parameter_client.hpp"
-#include "libs/dds/service.hpp"
 
 namespace palpate::command {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Of each question; nodes answer between two frames.
-constexpr auto kPatience = std::chrono::seconds(3);
 
 struct ParamOptions : GraphOptions {
   std::string node;
@@ -40,45 +34,6 @@ struct ParamOptions : GraphOptions {
   std::vector<std::string> prefixes;
   bool types = false;
   bool hide_type = false;
-};
-
-/// Whether a node answers questions about its parameters.
-bool HasParameters(const dds::DomainGraph& graph, const dds::RosNode& node) {
-  const std::string topic = dds::RequestTopicOf(node.FullName() + "/list_parameters");
-  return std::any_of(node.readers.begin(), node.readers.end(), [&](const dds::Guid& guid) {
-    const auto found = graph.endpoints().find(guid);
-    return found != graph.endpoints().end() && found->second.dds_topic == topic;
-  });
-}
-
-/// One node that has parameters.
-class ParameterNode {
- public:
-  explicit ParameterNode(const ParamOptions& options)
-      : graph_(static_cast<std::uint32_t>(options.domain_id), {}, GraphSecurity()),
-        node_(WaitForNode(graph_, GraphNames(options), options, options.node)),
-        client_(graph_.participant(), node_.FullName(), kPatience) {
-    if (HasParameters(graph_, node_)) return;
-    throw RunError(fmt::format("node '{}' has no services for parameters", node_.FullName()));
-  }
-
-  std::string name() const { return node_.FullName(); }
-  const dds::ParameterClient& client() const { return client_; }
-
-  /// Throws RunError with "did you mean" for a name that the node does not have.
-  void Require(const std::vector<std::string>& names) const {
-    const std::vector<std::string> known = client_.List();
-    for (const std::string& name : names) {
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw RunError(fmt::format("node '{}' has no parameter '{}'{}", node_.FullName(), name,
-                                 DidYouMean(name, known)));
-    }
-  }
-
- private:
-  dds::DomainGraph graph_;
-  dds::RosNode node_;
-  dds::ParameterClient client_;
 };
 
 std::vector<std::string> WithPrefix(std::vector<std::string> names,
@@ -121,7 +76,7 @@ int ListAll(const ParamOptions& options) {
     if (!names.IsOfNamespace(node.FullName()) || !HasParameters(graph, node)) continue;
     if (!options.json) fmt::print("{}:\n", node.FullName());
     try {
-      const dds::ParameterClient client(graph.participant(), node.FullName(), kPatience);
+      const dds::ParameterClient client(graph.participant(), node.FullName(), kParameterPatience);
       all[node.FullName()] = ListNode(client, options);
     } catch (const RunError& error) {
       fmt::print(stderr, "palpate: error: {}\n", error.what());
@@ -134,14 +89,14 @@ int ListAll(const ParamOptions& options) {
 
 int List(const ParamOptions& options) {
   if (options.node.empty()) return ListAll(options);
-  const ParameterNode node(options);
+  const ParameterNode node(options, options.node);
   const Json list = ListNode(node.client(), options);
   if (options.json) fmt::print("{}\n", Json({{node.name(), list}}).dump());
   return app::kExitDone;
 }
 
 int Get(const ParamOptions& options) {
-  const ParameterNode node(options);
+  const ParameterNode node(options, options.node);
   node.Require({options.name});
   const ParameterValue value = node.client().Get({options.name}).front();
   if (options.json) {
@@ -157,7 +112,7 @@ int Get(const ParamOptions& options) {
 }
 
 int Set(const ParamOptions& options) {
-  const ParameterNode node(options);
+  const ParameterNode node(options, options.node);
   node.Require({options.name});
   const std::vector<Parameter> described = node.client().Describe({options.name});
   const ParameterValue like = described.empty() ? ParameterValue() : described.front().value;
@@ -188,7 +143,7 @@ Json DescriptionJson(const Parameter& parameter) {
 }
 
 int Describe(const ParamOptions& options) {
-  const ParameterNode node(options);
+  const ParameterNode node(options, options.node);
   node.Require(options.names);
   Json all = Json::array();
   for (const Parameter& parameter : node.client().Describe(options.names)) {

@@ -134,6 +134,14 @@ TEST_F(LaunchCommand, GivesAComponentItsSettingsNamesAndDomain) {
                         "--domain 5\n"));
 }
 
+TEST_F(LaunchCommand, PassesOnThatFaultsAreAllowed) {
+  const std::string process = "{name: cam, component: capture}";
+  EXPECT_EQ(RunLaunch({System({process}, "allow_faults: true\n"), "--dry-run"}), 0);
+  EXPECT_THAT(Log(), HasSubstr("--set dds.allow_faults=true"));
+  EXPECT_EQ(RunLaunch({System({process}), "--dry-run"}), 0);
+  EXPECT_THAT(Log(), testing::Not(HasSubstr("allow_faults")));
+}
+
 TEST_F(LaunchCommand, RefusesWhatItCannotRead) {
   EXPECT_EQ(RunLaunch({System({"{name: a, component: capture, settings: none.yaml}"})}), 2);
   EXPECT_THAT(Log(), HasSubstr("no settings file"));

@@ -29,11 +29,12 @@ class FakeNode {
  public:
   explicit FakeNode(const std::string& name, std::vector<Parameter> parameters = {},
                     std::vector<std::string> remap = {})
-      : participant({.domain_id = static_cast<std::uint32_t>(TestDomain()),
-                     .node_name = name,
-                     .remap = std::move(remap),
-                     .parameters = std::move(parameters)},
-                    dds::LoadTopicTable({}, app::LoadYaml, app::ParseYaml)),
+      : FakeNode({.domain_id = static_cast<std::uint32_t>(TestDomain()),
+                  .node_name = name,
+                  .remap = std::move(remap),
+                  .parameters = std::move(parameters)}) {}
+  explicit FakeNode(const dds::ParticipantSettings& settings)
+      : participant(settings, dds::LoadTopicTable({}, app::LoadYaml, app::ParseYaml)),
         loop(participant) {}
   ~FakeNode() {
     loop.Stop();
