@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "libs/core/names.hpp"
 #include "libs/dds/invalid_message.hpp"
@@ -22,6 +23,11 @@ template <typename Sequence>
 std::optional<double> NumberAt(const Sequence& sequence, std::size_t index) {
   if (sequence._length == 0 || std::isnan(sequence._buffer[index])) return std::nullopt;
   return sequence._buffer[index];
+}
+
+template <typename Sequence>
+bool IsInfinite(const Sequence& sequence, std::size_t index) {
+  return sequence._length != 0 && std::isinf(sequence._buffer[index]);
 }
 
 template <typename Sequence>
@@ -44,6 +50,9 @@ Status FromJointState(const idl::sensor_msgs::JointState& message,
     const std::string_view name = Text(message.name._buffer[i]);
     const auto index = IndexOf(name, names);
     if (!index) return InvalidState(Unknown("cable", name, names));
+    if (IsInfinite(message.position, i) || IsInfinite(message.effort, i)) {
+      return InvalidState("the input of cable '" + std::string(name) + "' is infinite");
+    }
     reading->cables[*index] = {NumberAt(message.position, i), NumberAt(message.effort, i)};
   }
   return Status::Ok();

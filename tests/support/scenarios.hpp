@@ -26,6 +26,22 @@ camera:
 rest_between_s: 0
 )";
 
+/// Of a scenario: that ball presses the four-legged robot from the sixth second on.
+inline const std::string kBallThatHolds =
+    R"(recordings:
+  - name: press
+    kind: free
+    duration_s: 200
+    commands: [{t_s: 0, east.displacement_m: 0}, {t_s: 200, east.displacement_m: 0}]
+    tools:
+      - tool: ball
+        path:
+          - {t_s: 4, position_m: [0.0560, -0.0560, 0.103]}
+          - {t_s: 5, position_m: [0.0285, -0.0285, 0.103]}
+          - {t_s: 6, position_m: [0.0220, -0.0220, 0.103]}
+          - {t_s: 200, position_m: [0.0220, -0.0220, 0.103]}
+)";
+
 /// Of a scenario: a body of this mesh whose modulus is not the robot file's.
 inline std::string BodyOfAnotherModulus(const std::string& mesh_file) {
   return "body: {mesh_file: " + mesh_file +

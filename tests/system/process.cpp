@@ -15,8 +15,26 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace palpate::system_test {
+
+std::optional<Holdings> HoldingsOf(pid_t pid) {
+  const std::filesystem::path folder = "/proc/" + std::to_string(pid);
+  std::error_code gone;
+  const auto entries = [&](const char* name) {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder / name, gone), {}));
+  };
+  Holdings holdings{.files = entries("fd"), .threads = gone ? 0 : entries("task")};
+  std::ifstream stream(folder / "statm");
+  double pages = 0.0;
+  double resident_pages = 0.0;
+  stream >> pages >> resident_pages;
+  if (gone || !stream || resident_pages == 0.0) return std::nullopt;
+  holdings.memory_MiB = resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
+  return holdings;
+}
 
 Process::Process(const std::string& name, const std::vector<std::string>& arguments,
                  const std::filesystem::path& log, const std::vector<std::string>& wrapper)
@@ -71,20 +89,6 @@ double Process::CpuTime_s() const {
   double system_ticks = 0.0;
   fields >> user_ticks >> system_ticks;
   return (user_ticks + system_ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
-Process::Holdings Process::Holds() const {
-  const std::filesystem::path folder = "/proc/" + std::to_string(pid_);
-  const auto entries = [&](const char* name) {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(folder / name), {}));
-  };
-  std::ifstream stream(folder / "statm");
-  double pages = 0.0;
-  double resident_pages = 0.0;
-  stream >> pages >> resident_pages;
-  return {entries("fd"), entries("task"),
-          resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0};
 }
 
 std::string Process::Output() const {

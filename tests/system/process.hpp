@@ -13,6 +13,16 @@
 
 namespace palpate::system_test {
 
+/// What a process holds: files and sockets, threads, resident memory.
+struct Holdings {
+  std::size_t files = 0;
+  std::size_t threads = 0;
+  double memory_MiB = 0.0;
+};
+
+/// nullopt: it does not run.
+std::optional<Holdings> HoldingsOf(pid_t pid);
+
 /// A program of the build, running. Killed when this goes out of scope.
 class Process {
  public:
@@ -31,13 +41,8 @@ class Process {
   std::optional<int> Wait(std::chrono::seconds at_most);
   /// Processor time that it has used until now, s.
   double CpuTime_s() const;
-  /// What it holds: files and sockets, threads, resident memory.
-  struct Holdings {
-    std::size_t files = 0;
-    std::size_t threads = 0;
-    double memory_MiB = 0.0;
-  };
-  Holdings Holds() const;
+  using Holdings = system_test::Holdings;
+  Holdings Holds() const { return HoldingsOf(pid_).value_or(Holdings()); }
   /// What it has written until now.
   std::string Output() const;
 

@@ -137,7 +137,11 @@ void PerceptionNode::SendPose() {
 void PerceptionNode::TakeMeshStates() {
   TakeMesh();
   for (const auto& message : mesh_states_.Take()) {
-    if (!predictions_.Add(message).ok()) ++counts_.refused;
+    last_state_ = predictions_.Add(message);
+    if (last_state_.ok()) continue;
+    ++counts_.refused;
+    log_.WarnRepeatedly("/robot/mesh_state refused: " + last_state_.message(),
+                        dds::StampText(dds::StampNs(message.header.stamp)));
   }
   Advance();
 }
@@ -321,7 +325,11 @@ Status PerceptionNode::CurrentStatus() {
                                     FormatNumber(std::round(SecondsSince(streams_->last_depth()))) +
                                     " s"};
   }
-  return last_status_.ok() ? late : last_status_;
+  if (!last_status_.ok()) return last_status_;
+  if (!last_state_.ok()) {
+    return {last_state_.code(), "/robot/mesh_state refused: " + last_state_.message()};
+  }
+  return late;
 }
 
 }  // namespace palpate::perception

@@ -91,6 +91,7 @@ class PerceptionNode {
   std::uint32_t last_epoch_ = 0;
   std::string last_device_;
   Clock::time_point published_at_;
+  Status last_state_ = Status::Ok();  ///< of the last message on /robot/mesh_state
   RepetitionCheck repetition_;  ///< of depth images
   Lateness lateness_;           ///< of frames
   dds::HealthCounts counts_;

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "tests/support/not_a_number.hpp"
@@ -45,6 +47,17 @@ TEST(JointStates, ComeInTheRobotsOrderAndNanMeansNotKnown) {
   message->effort._length = 1;
   EXPECT_THAT(FromJointState(*message, {"north", "south"}, &reading).message(),
               HasSubstr("2 names, 2 positions, 1 efforts"));
+}
+
+TEST(JointStates, RefuseAnInfiniteInput) {
+  Message<idl::sensor_msgs::JointState> message;
+  Resize(message->name, 1);
+  SetText(message->name._buffer[0], "north");
+  const double infinite = std::numeric_limits<double>::infinity();
+  SetNumbers(message->position, &infinite, 1);
+  CableReading reading;
+  EXPECT_THAT(FromJointState(*message, {"north"}, &reading).message(),
+              HasSubstr("the input of cable 'north' is infinite"));
 }
 
 }  // namespace

@@ -35,19 +35,7 @@ constexpr seconds kPatience{40};
 const std::string kScenario = "name: held\n" +
                               test_support::BodyOfAnotherModulus("four_leg_coarse.msh") +
                               test_support::kBallBeforeASmallCamera +
-                              R"(recordings:
-  - name: press
-    kind: free
-    duration_s: 200
-    commands: [{t_s: 0, east.displacement_m: 0}, {t_s: 200, east.displacement_m: 0}]
-    tools:
-      - tool: ball
-        path:
-          - {t_s: 4, position_m: [0.0560, -0.0560, 0.103]}
-          - {t_s: 5, position_m: [0.0285, -0.0285, 0.103]}
-          - {t_s: 6, position_m: [0.0220, -0.0220, 0.103]}
-          - {t_s: 200, position_m: [0.0220, -0.0220, 0.103]}
-)";
+                              test_support::kBallThatHolds;
 
 struct Push {
   std::string name;
