@@ -243,6 +243,7 @@ void ForceEstimationNode::MatchWithCables() {
     FrameInput input = std::move(pending_.front());
     pending_.pop_front();
     if (status.ok()) {
+      if (!working_since_) working_since_ = Clock::now();
       worker_.Push(std::move(input));
     } else {
       PassOnStart(input);
@@ -283,6 +284,7 @@ void ForceEstimationNode::PublishResults() {
       if (result->state_is_known) outputs_.PublishPosture(*result);
       continue;
     }
+    working_since_.reset();
     last_status_ = result->estimate.status;
     LogBiasFrames(result->bias_frames_to_come);
     if (ToString(result->drift.state) != ToString(drift_.state)) LogDrift(result->drift);
@@ -300,7 +302,7 @@ void ForceEstimationNode::ReportHealth() {
   counts.dropped += source_->dropped() + worker_.dropped() + outputs_.failed();
   counts.latencies_s = outputs_.TakeLatencies();
   const Status status = CurrentStatus();
-  if (IsFromShape(config_) && IsSilent()) outputs_.PublishSilence(status);
+  if (IsFromShape(config_) && (IsSilent() || IsOverdue())) outputs_.PublishSilence(status);
   std::vector<std::pair<std::string, std::string>> values = {
       {"readers_of_forces", std::to_string(outputs_.readers())},
       {"writers_of_" + source_->name(), std::to_string(source_->writers())},
@@ -348,11 +350,21 @@ bool ForceEstimationNode::IsSilent() const {
   return counts_.received > 0 && SecondsSince(last_frame_) > config_.silence_s;
 }
 
+/// A frame may take long: the first ones of a sequence have no limit of work.
+bool ForceEstimationNode::IsOverdue() const {
+  return working_since_ && SecondsSince(*working_since_) > config_.silence_s;
+}
+
 Status ForceEstimationNode::CurrentStatus() {
   const Status& late = lateness_.Judge(source_->name());
   if (IsSilent()) {
     return {StatusCode::kStale, "no " + source_->name() + " for " +
                                     FormatNumber(std::round(SecondsSince(last_frame_))) + " s"};
+  }
+  if (IsOverdue()) {
+    return {StatusCode::kStale, "no estimate for " +
+                                    FormatNumber(std::round(SecondsSince(*working_since_))) +
+                                    " s: a frame is still being computed"};
   }
   // A moved camera also explains the status of the estimates.
   if (drift_.state == DriftReport::State::kMoved) {

@@ -61,6 +61,7 @@ class ForceEstimationNode {
   void PublishResults();
   void ReportHealth();
   bool IsSilent() const;
+  bool IsOverdue() const;
   Status CurrentStatus();
   void LogDrift(const DriftReport& drift);
   void LogBiasFrames(int to_come);
@@ -95,6 +96,7 @@ class ForceEstimationNode {
   GapReport gap_;
   int bias_frames_to_come_ = 0;  ///< of the last result
   Clock::time_point last_frame_;
+  std::optional<Clock::time_point> working_since_;  ///< on frames; nullopt: the last one is done
   ForceLines force_lines_;
   std::unique_ptr<FrameSource> source_;
   dds::InputMonitor inputs_;

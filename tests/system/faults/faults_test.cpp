@@ -59,17 +59,25 @@ Heard NoForces(const std::string& status, const std::string& reason) {
           }};
 }
 
-/// Forces go on, as old as that.
+/// Estimates go on, as old as that.
 Heard ForcesOfAge(double age_s) {
   return {"/forces of an age of " + std::to_string(age_s) + " s", [=](SystemListener& listener) {
-            return listener.forces_in_a_row() >= 3 && listener.last().age_s >= age_s;
+            return listener.estimates_in_a_row() >= 3 && listener.last().age_s >= age_s;
+          }};
+}
+
+/// A component says that it cannot work, with a reason.
+Heard SaysWhyNot(const std::string& component) {
+  return {component + " says why it cannot work", [=](SystemListener& listener) {
+            const auto& report = listener.Of(component);
+            return report.count > 0 && report.status != "ok" && !report.reason.empty();
           }};
 }
 
 /// All that report still work, and say so.
 Heard ForcesGoOn() {
   return {"/forces goes on", [](SystemListener& listener) {
-            return listener.forces_in_a_row() >= 20 && listener.Of("perception").count >= 2 &&
+            return listener.estimates_in_a_row() >= 20 && listener.Of("perception").count >= 2 &&
                    listener.Of("capture").status == "ok" &&
                    listener.Of("perception").status == "ok" &&
                    listener.Of("force_estimation").status == "ok";
@@ -92,7 +100,7 @@ class FaultsOnCommand : public testing::Test {
 
   bool ForcesCome() {
     listener_.Forget();
-    return listener_.WaitFor([&] { return listener_.forces_in_a_row() >= 3; }, 2 * kPatience);
+    return listener_.WaitFor([&] { return listener_.estimates_in_a_row() >= 3; }, 2 * kPatience);
   }
 
   int Fail(const std::vector<std::string>& words) {
@@ -141,41 +149,56 @@ TEST_F(FaultsOnCommand, OfCapture) {
          {Says("perception", "stale", "no depth images for"),
           Shows("perception", "waiting_for", "/camera/depth/image_raw"),
           Says("force_estimation", "stale", "no clouds for"), NoForces("stale", "no clouds for")});
-  Expect("capture", "stuck",
-         {Says("perception", "stale", "pixel for pixel"), NoForces("stale", "pixel for pixel")});
+  Expect(
+      "capture", "stuck",
+      {Says("perception", "stale", "pixel for pixel"),
+       Says("force_estimation", "stale", "pixel for pixel"), NoForces("stale", "pixel for pixel")});
   Expect("capture", "slow", {Says("perception", "stale", "frames come 1"), ForcesOfAge(1.0)});
-  Expect("capture", "garbage", {NoForces("no_robot_seen", "")});
-  Expect("capture", "wrong", {Says("force_estimation", "no_calibration", "")});
+  const std::string misfit = "does not agree with the predicted robot";
+  Expect("capture", "garbage",
+         {Says("perception", "no_robot_seen", misfit),
+          Says("force_estimation", "no_robot_seen", misfit), NoForces("no_robot_seen", misfit)});
+  Expect("capture", "wrong",
+         {Says("perception", "no_robot_seen", misfit), NoForces("no_robot_seen", "")});
 }
 
 TEST_F(FaultsOnCommand, OfPerception) {
   Expect("perception", "off",
-         {Says("force_estimation", "stale", "no clouds for"), NoForces("stale", "no clouds for")});
+         {Says("force_estimation", "stale", "no clouds for"),
+          Shows("force_estimation", "waiting_for", "/perception/robot_cloud"),
+          NoForces("stale", "no clouds for")});
   Expect("perception", "stuck",
          {Says("force_estimation", "stale", "bit for bit"), NoForces("stale", "bit for bit")});
   Expect("perception", "slow",
          {Says("force_estimation", "stale", "clouds come 1"), ForcesOfAge(1.0)});
-  Expect("perception", "garbage", {NoForces("invalid_input", "is no number")});
-  Expect("perception", "wrong", {Says("force_estimation", "no_calibration", "")});
+  Expect("perception", "garbage",
+         {Says("force_estimation", "invalid_input", ""), NoForces("invalid_input", "")});
+  Expect("perception", "wrong", {SaysWhyNot("force_estimation")});
 }
 
+/// Nobody computes with forces, and a model that is held looks like a robot that is still.
 TEST_F(FaultsOnCommand, OfForceEstimation) {
   Expect("force_estimation", "off", {Shows("perception", "waiting_for", "/robot/mesh_state")});
   Expect("force_estimation", "stuck", {ForcesGoOn()});
-  Expect("force_estimation", "slow", {ForcesGoOn()});
-  Expect("force_estimation", "garbage", {});
-  Expect("force_estimation", "wrong", {ForcesGoOn()});
+  Expect("force_estimation", "slow", {Says("perception", "ok", "")});
+  Expect("force_estimation", "garbage",
+         {Says("perception", "invalid_input", "/robot/mesh_state refused")});
+  Expect("force_estimation", "wrong", {Says("perception", "ok", "")});
 }
 
 TEST_F(FaultsOnCommand, OfTheVirtualRobot) {
-  Expect("virtual_robot", "off",
-         {Says("virtual_camera", "stale", "no state of the virtual robot"),
-          Says("capture", "stale", ""), Says("perception", "stale", "no depth images for"),
-          NoForces("stale", "no clouds for")});
+  Expect(
+      "virtual_robot", "off",
+      {Says("virtual_camera", "stale", "no state of the virtual robot"),
+       Says("capture", "stale", "no frame for"), Says("perception", "stale", "no depth images for"),
+       Shows("force_estimation", "waiting_for", "/robot/joint_states"),
+       NoForces("stale", "no clouds for")});
   Expect("virtual_robot", "stuck", {ForcesGoOn()});
-  Expect("virtual_robot", "slow", {NoForces("stale", "the cable inputs are")});
-  Expect("virtual_robot", "garbage", {Says("virtual_camera", "stale", "no state of the virtual")});
-  Expect("virtual_robot", "wrong", {});
+  Expect("virtual_robot", "slow", {ForcesGoOn()});  // images and cable inputs are late together
+  Expect("virtual_robot", "garbage",
+         {Says("virtual_camera", "stale", "no state of the virtual robot"),
+          NoForces("stale", "no clouds for")});
+  Expect("virtual_robot", "wrong", {SaysWhyNot("force_estimation")});
 }
 
 }  // namespace
