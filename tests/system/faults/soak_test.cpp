@@ -33,6 +33,8 @@ constexpr double kStart_s = 20.0;
 /// A process that has just started has not yet all that it needs.
 constexpr double kWarmUp_s = 5.0;
 constexpr double kMostGrowth = 1.05;
+/// In a shorter soak a process sees its partners restart once or never, and memory has no level.
+constexpr double kSteady_s = 600.0;
 
 /// What a process held at one time.
 struct Sample {
@@ -133,7 +135,9 @@ void Soak::ExpectLevel(const std::string& name, const std::vector<Sample>& sampl
   std::printf("%-16s %7.1f -> %7.1f MiB, %3.0f -> %3.0f files, %3.0f -> %3.0f threads\n",
               name.c_str(), median(second, memory), median(last, memory), median(second, files),
               median(last, files), median(second, threads), median(last, threads));
-  EXPECT_LE(median(last, memory), kMostGrowth * median(second, memory)) << name;
+  if (duration_s_ >= kSteady_s) {
+    EXPECT_LE(median(last, memory), kMostGrowth * median(second, memory)) << name;
+  }
   EXPECT_LE(median(last, files), median(second, files)) << name;
   EXPECT_LE(median(last, threads), median(second, threads)) << name;
 }
