@@ -173,6 +173,9 @@ TEST_F(FaultsOnCommand, OfPerception) {
          {Says("force_estimation", "stale", "clouds come 1"), ForcesOfAge(1.0)});
   Expect("perception", "garbage",
          {Says("force_estimation", "invalid_input", ""), NoForces("invalid_input", "")});
+}
+
+TEST_F(FaultsOnCommand, OfPerceptionThatIsWrong) {
   Expect("perception", "wrong", {SaysWhyNot("force_estimation")});
 }
 
@@ -198,6 +201,9 @@ TEST_F(FaultsOnCommand, OfTheVirtualRobot) {
   Expect("virtual_robot", "garbage",
          {Says("virtual_camera", "stale", "no state of the virtual robot"),
           NoForces("stale", "no clouds for")});
+}
+
+TEST_F(FaultsOnCommand, OfTheVirtualRobotThatIsWrong) {
   Expect("virtual_robot", "wrong", {SaysWhyNot("force_estimation")});
 }
 
