@@ -15,6 +15,8 @@ find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tinyxml2 REQUIRED CONFIG)
+# Beast: HTTP and WebSocket of the live page.
+find_package(Boost 1.74 REQUIRED)
 
 find_package(PkgConfig REQUIRED)
 # Compression of recordings.

@@ -12,7 +12,7 @@
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/palpate/demo_data.hpp"
-#include "components/view/scene.hpp"
+#include "components/view/picture/scene.hpp"
 
 namespace palpate::command {
 

@@ -15,7 +15,7 @@
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/recordings/describe_recording.hpp"
 #include "components/palpate/robot_scene.hpp"
-#include "components/view/scene.hpp"
+#include "components/view/picture/scene.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "components/view/scene.hpp"
+#include "components/view/picture/scene.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {

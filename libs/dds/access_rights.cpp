@@ -17,6 +17,7 @@ namespace {
 
 constexpr char kRecorder[] = "recorder";
 constexpr char kPlayer[] = "player";
+constexpr char kView[] = "view";
 constexpr char kTopicPrefix[] = "rt";
 constexpr char kEveryTopic[] = "rt/*";
 constexpr char kDiscovery[] = "ros_discovery_info";
@@ -33,7 +34,7 @@ bool Has(const Range& range, std::string_view word) {
 }
 
 bool ReadsAll(const std::string& role) {
-  return role == kRecorder || role == kObserver || role == kOperator;
+  return role == kRecorder || role == kView || role == kObserver || role == kOperator;
 }
 
 bool Writes(const TopicSettings& topic, const std::string& role) {
@@ -53,7 +54,7 @@ std::vector<std::string> Sorted(const std::set<std::string>& names) {
 }  // namespace
 
 std::vector<std::string> RolesOf(const TopicTable& table) {
-  std::set<std::string> roles{kRecorder, kPlayer, kObserver, kOperator};
+  std::set<std::string> roles{kRecorder, kPlayer, kView, kObserver, kOperator};
   for (const TopicSettings& topic : table.topics()) {
     roles.insert(topic.writers.begin(), topic.writers.end());
     roles.insert(topic.readers.begin(), topic.readers.end());

@@ -3,17 +3,45 @@
 
 #include "libs/dds/camera_messages.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "libs/core/sha256.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
 namespace palpate::dds {
 
 namespace {
+
+using idl::sensor_msgs::CameraInfo;
+using idl::sensor_msgs::Image;
+
+constexpr std::uint32_t kLargestSide_px = 16384;
+
+bool IsSide(std::uint32_t length_px) { return length_px > 0 && length_px <= kLargestSide_px; }
+
+bool AllFinite(const double* numbers, std::size_t count) {
+  return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
+}
+
+Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
+  if (message.d._length == 0) return Status::Ok();
+  const std::string_view model = Text(message.distortion_model);
+  if (model != "plumb_bob" || message.d._length != camera->distortion.size()) {
+    return Invalid("distortion model '" + std::string(model) + "' with " +
+                   std::to_string(message.d._length) + " numbers instead of 'plumb_bob' with 5");
+  }
+  if (!AllFinite(message.d._buffer, message.d._length)) {
+    return Invalid("a distortion that is not finite");
+  }
+  std::copy_n(message.d._buffer, camera->distortion.size(), camera->distortion.begin());
+  return Status::Ok();
+}
 
 std::string CalibrationHash(const rgbd::RgbdCamera& camera, const CameraIdentity& identity) {
   return Sha256Hex(identity.device + "\n" + identity.model + "\n" +
@@ -87,6 +115,38 @@ Message<idl::palpate_msgs::CameraSetup> ToCameraSetup(const rgbd::RgbdCamera& ca
   setup->color_in_depth = ToPose(camera.T_depth_color);
   SetText(setup->calibration_hash, CalibrationHash(camera, identity));
   return setup;
+}
+
+Status CheckImageSize(const Image& message, std::uint32_t pixel_bytes) {
+  const bool sized = IsSide(message.width) && IsSide(message.height);
+  const bool filled = message.step >= message.width * pixel_bytes &&
+                      message.data._length >= std::uint64_t{message.step} * message.height;
+  if (!sized || !filled) {
+    return Invalid("an image of " + std::to_string(message.width) + " x " +
+                   std::to_string(message.height) + " pixels in " +
+                   std::to_string(message.data._length) + " bytes");
+  }
+  return Status::Ok();
+}
+
+Status FromCameraInfo(const CameraInfo& message, rgbd::CameraModel* camera) {
+  rgbd::CameraModel lens;
+  if (!IsSide(message.width) || !IsSide(message.height)) {
+    return Invalid("a camera of " + std::to_string(message.width) + " x " +
+                   std::to_string(message.height) + " pixels");
+  }
+  lens.width_px = static_cast<int>(message.width);
+  lens.height_px = static_cast<int>(message.height);
+  if (!AllFinite(message.k, 9) || message.k[0] < 0.0 || message.k[4] < 0.0) {
+    return Invalid("intrinsics that are no numbers of a camera");
+  }
+  lens.fx_px = message.k[0];
+  lens.cx_px = message.k[2];
+  lens.fy_px = message.k[4];
+  lens.cy_px = message.k[5];
+  if (Status status = ReadDistortion(message, &lens); !status.ok()) return status;
+  *camera = lens;
+  return Status::Ok();
 }
 
 }  // namespace palpate::dds

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "libs/core/status.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/rgbd/image.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
@@ -45,6 +46,13 @@ class ImageMessage {
 Message<idl::sensor_msgs::CameraInfo> ToCameraInfo(const rgbd::CameraModel& camera,
                                                    std::int64_t stamp_ns,
                                                    std::string_view frame_id);
+
+/// One lens; where K is all zeros the focal lengths are 0: not calibrated. kInvalidInput for
+/// numbers that are not finite, an image without pixels, another distortion model than plumb_bob.
+Status FromCameraInfo(const idl::sensor_msgs::CameraInfo& message, rgbd::CameraModel* camera);
+
+/// kInvalidInput for an image without pixels, rows or data that are too short.
+Status CheckImageSize(const idl::sensor_msgs::Image& message, std::uint32_t pixel_bytes);
 
 /// Which camera it is, and since when.
 struct CameraIdentity {

@@ -57,6 +57,25 @@ Publication PublicationOf(const dds_builtintopic_endpoint_t& endpoint) {
 
 }  // namespace
 
+RawTopic RawTopicOf(const Publication& publication) {
+  return {.dds_topic = publication.dds_topic,
+          .dds_type = publication.dds_type,
+          .reliability = publication.reliability,
+          .durability = publication.durability,
+          .has_key = publication.has_key,
+          .this_host_only = publication.this_host_only};
+}
+
+bool AskLess(const Publication& publication, RawTopic* asked) {
+  const bool too_reliable = asked->reliability == Reliability::kReliable &&
+                            publication.reliability == Reliability::kBestEffort;
+  const bool too_durable = asked->durability == Durability::kTransientLocal &&
+                           publication.durability == Durability::kVolatile;
+  if (too_reliable) asked->reliability = Reliability::kBestEffort;
+  if (too_durable) asked->durability = Durability::kVolatile;
+  return too_reliable || too_durable;
+}
+
 Publications::Publications(dds_entity_t participant,
                            std::function<bool(const std::string&)> needs_idl)
     : participant_(participant),

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "libs/dds/entity.hpp"
+#include "libs/dds/raw_reader.hpp"
 #include "libs/dds/topic_table.hpp"
 
 namespace palpate::dds {
@@ -33,6 +34,13 @@ struct Publication {
 
   bool operator==(const Publication&) const = default;
 };
+
+/// What reads all that this writer sends.
+RawTopic RawTopicOf(const Publication& publication);
+
+/// Lowers what is asked for to what a further writer of the topic offers: a reader that asks for
+/// more gets nothing of that writer. True where that changed anything.
+bool AskLess(const Publication& publication, RawTopic* asked);
 
 /// All writers of a domain but those of its own participant.
 class Publications {

@@ -7,6 +7,8 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
 
 // It needs the types of <cstdio>.
 #include <jpeglib.h>
@@ -75,6 +77,64 @@ struct JpegDecoder {
   JpegDecoder& operator=(const JpegDecoder&) = delete;
 };
 
+/// What libjpeg has written; its memory comes from malloc().
+struct JpegEncoder {
+  JpegErrors errors{};
+  jpeg_compress_struct jpeg{};
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;  // NOLINT(google-runtime-int): libjpeg's type
+
+  JpegEncoder() {
+    jpeg.err = jpeg_std_error(&errors.manager);
+    errors.manager.error_exit = LeaveByJump;
+    errors.manager.output_message = IgnoreMessage;
+    jpeg_create_compress(&jpeg);
+  }
+  ~JpegEncoder() {
+    jpeg_destroy_compress(&jpeg);
+    std::free(bytes);
+  }
+  JpegEncoder(const JpegEncoder&) = delete;
+  JpegEncoder& operator=(const JpegEncoder&) = delete;
+};
+
+bool WriteJpeg(JpegEncoder* encoder, const std::uint8_t* pixels, std::size_t row_bytes,
+               int quality) {
+  if (setjmp(encoder->errors.place) != 0) return false;
+  jpeg_compress_struct& jpeg = encoder->jpeg;
+  jpeg_mem_dest(&jpeg, &encoder->bytes, &encoder->size);
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, quality, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  while (jpeg.next_scanline < jpeg.image_height) {
+    // libjpeg reads rows, and does not say so in its type.
+    auto* row = const_cast<JSAMPROW>(pixels + jpeg.next_scanline * row_bytes);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  return true;
+}
+
+template <int kChannels>
+std::string Encode(const Image<std::uint8_t, kChannels>& image, J_COLOR_SPACE colors, int quality) {
+  const auto pixels = static_cast<std::uint64_t>(image.width_px) *
+                      static_cast<std::uint64_t>(image.height_px);
+  if (pixels == 0 || pixels > kLargestJpeg_px) {
+    throw RunError("no JPEG can be made of " + std::to_string(image.width_px) + " x " +
+                   std::to_string(image.height_px) + " pixels");
+  }
+  JpegEncoder encoder;
+  encoder.jpeg.image_width = static_cast<JDIMENSION>(image.width_px);
+  encoder.jpeg.image_height = static_cast<JDIMENSION>(image.height_px);
+  encoder.jpeg.input_components = kChannels;
+  encoder.jpeg.in_color_space = colors;
+  const std::size_t row_bytes = static_cast<std::size_t>(image.width_px) * kChannels;
+  if (!WriteJpeg(&encoder, image.values.data(), row_bytes, quality)) {
+    throw RunError(std::string("libjpeg: ") + encoder.errors.message.data());
+  }
+  return {reinterpret_cast<const char*>(encoder.bytes), encoder.size};
+}
+
 }  // namespace
 
 ColorImage DecodeJpeg(std::string_view jpeg, const std::string& name) {
@@ -102,6 +162,14 @@ ColorImage DecodeJpeg(std::string_view jpeg, const std::string& name) {
     throw InputError(where, "is a damaged JPEG image: it is cut short, or holds other bytes");
   }
   return image;
+}
+
+std::string EncodeJpeg(const ColorImage& image, int quality) {
+  return Encode(image, JCS_RGB, quality);
+}
+
+std::string EncodeJpeg(const GreyImage& image, int quality) {
+  return Encode(image, JCS_GRAYSCALE, quality);
 }
 
 }  // namespace palpate::rgbd

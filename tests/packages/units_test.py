@@ -21,7 +21,7 @@ MOST_EXPOSED = 2.0
 # Units of systemd that ours refer to; the package does not bring them.
 OF_SYSTEMD = ("sysinit", "basic", "shutdown", "network-online", "time-sync", "multi-user")
 COMPONENTS = ("capture", "perception", "force-estimation", "calibration", "motion-capture",
-              "recorder")
+              "recorder", "view")
 
 
 class Units(unittest.TestCase):

@@ -33,10 +33,19 @@ LIBRARIES = {
     "robot": {"core", "linalg", "geometry", "fem"},
     "security": {"core"},
     "dds": {"core", "geometry", "rgbd", "security"},
+    "monitor": {"core", "dds"},
 }
 # Which folders of a component each of its folders may include, besides itself and its subfolders.
 # Files at the component's top join the folders. A component without an entry: no circles, only.
 COMPONENT_LAYERS = {
+    "view": {
+        "picture": set(),
+        "plot": {"picture"},
+        "frames": set(),
+        "serve": set(),
+        "foxglove": {"frames"},
+        "node": {"frames", "serve", "foxglove"},
+    },
     "diagnosis": {
         "vocabulary": set(),
         "data": set(),
@@ -50,7 +59,7 @@ COMPONENT_LAYERS = {
         "report": {"vocabulary"},
     },
 }
-NOT_FOR_ALGORITHMS = {"app", "dds"}
+NOT_FOR_ALGORITHMS = {"app", "dds", "monitor"}
 
 # Third-party headers that stay behind one library: pattern, libraries, what to use instead.
 THIRD_PARTY = [
@@ -72,14 +81,16 @@ THIRD_PARTY = [
 # Third-party headers that stay behind one component.
 OF_COMPONENTS = [
     (re.compile(r"pcl/"), "perception", "PCL only in components/perception"),
+    (re.compile(r"boost/"), "view", "Boost only in components/view: use WebServer"),
     (re.compile(r"arv\.h|glib"), "capture", "Aravis only in components/capture: use FrameSource"),
 ]
 # The virtual bench's truth: whoever estimates must not see it.
 TRUTH = re.compile(r"\bk(?:True\w+|BenchState)Topic\b|\"/truth/")
 KNOW_TRUTH = {"virtual_robot", "virtual_camera"}
-# Files that only compare: `palpate demo` shows estimates beside the truth, and sends nothing to
-# those who estimate.
-COMPARE_WITH_TRUTH = re.compile(r"components/palpate/node/demo/live_listener\.cpp$")
+# Files that only compare: `palpate demo` and the view show estimates beside the truth, and send
+# nothing to those who estimate.
+COMPARE_WITH_TRUTH = re.compile(
+    r"components/(?:palpate/node/demo/live_listener|view/node/\w+)\.cpp$")
 DDS_HEADER = re.compile(r"(?:dds|ddsc)/")
 
 

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "components/palpate/calibrate/plot_projection.hpp"
-#include "components/view/color.hpp"
+#include "components/view/picture/color.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "components/palpate/calibrate/assignment_plot.hpp"
-#include "components/view/camera.hpp"
+#include "components/view/picture/camera.hpp"
 #include "libs/plot/svg_document.hpp"
 
 namespace palpate::command {

@@ -19,6 +19,7 @@
 #include "components/palpate/node/topics/node_verbs.hpp"
 #include "components/palpate/node/topics/param_verbs.hpp"
 #include "components/palpate/node/topics/topic_verbs.hpp"
+#include "components/palpate/node/view/view_verb.hpp"
 #include "components/palpate/node/watch/health_verb.hpp"
 #include "components/palpate/node/watch/watch_verb.hpp"
 #include "components/palpate/recordings/export_verb.hpp"
@@ -35,6 +36,7 @@ int RunCommand(const std::vector<std::string>& words) {
       DemoVerb(),     LaunchVerb(), SolveVerb(),   SimulateVerb(), CalibrateVerb(), EstimateVerb(),
       DiagnoseVerb(), ImportVerb(), CaptureVerb(), WatchVerb(),    HealthVerb(),    DoctorVerb(),
       TopicVerb(),    NodeVerb(),   ParamVerb(),   FailVerb(),     RecordVerb(),    PlayVerb(),
+      TopicVerb(),    NodeVerb(),   ParamVerb(),   RecordVerb(),   PlayVerb(),      ViewVerb(),
       RepairVerb(),   ExportVerb(), InfoVerb(),    SecurityVerb(), ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,

@@ -53,8 +53,8 @@ const KeyTable& EnvironmentKeys() {
 
 const std::vector<std::string>& ComponentNames() {
   static const std::vector<std::string> names{
-      "calibration", "capture",  "force_estimation", "motion_capture", "perception",
-      "player",      "recorder", "virtual_camera",   "virtual_robot"};
+      "calibration", "capture", "force_estimation", "motion_capture", "perception", "player",
+      "recorder",    "view",    "virtual_camera",   "virtual_robot"};
   return names;
 }
 

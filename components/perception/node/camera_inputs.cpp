@@ -3,6 +3,7 @@
 
 #include "components/perception/node/camera_inputs.hpp"
 
+#include "libs/dds/camera_messages.hpp"
 #include "libs/dds/stamp.hpp"
 
 namespace palpate::perception {
@@ -26,7 +27,7 @@ void CameraInputs::SetSetup(const idl::palpate_msgs::CameraSetup& message) {
 
 void CameraInputs::SetLens(const idl::sensor_msgs::CameraInfo& message, Lens* lens) {
   Received<rgbd::CameraModel> received{dds::StampNs(message.header.stamp), {}, {}};
-  received.status = FromCameraInfo(message, &received.value);
+  received.status = dds::FromCameraInfo(message, &received.value);
   *lens = std::move(received);
 }
 

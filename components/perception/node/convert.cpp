@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "libs/dds/camera_messages.hpp"
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/invalid_message.hpp"
@@ -20,12 +21,7 @@ namespace {
 
 using dds::Invalid;
 
-using idl::sensor_msgs::CameraInfo;
 using idl::sensor_msgs::Image;
-
-constexpr std::uint32_t kLargestSide_px = 16384;
-
-bool IsSide(std::uint32_t length_px) { return length_px > 0 && length_px <= kLargestSide_px; }
 
 Status CheckFrame(const idl::std_msgs::Header& header, bool color) {
   const std::string_view frame = dds::Text(header.frame_id);
@@ -41,7 +37,7 @@ Status CheckImage(const Image& message, std::string_view encoding, std::uint32_t
                    (message.is_bigendian ? "', big-endian," : "'") + " instead of '" +
                    std::string(encoding) + "'");
   }
-  return CheckImageSize(message, pixel_bytes);
+  return dds::CheckImageSize(message, pixel_bytes);
 }
 
 template <typename Target>
@@ -77,18 +73,6 @@ Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
 
 }  // namespace
 
-Status CheckImageSize(const Image& message, std::uint32_t pixel_bytes) {
-  const bool sized = IsSide(message.width) && IsSide(message.height);
-  const bool filled = message.step >= message.width * pixel_bytes &&
-                      message.data._length >= std::uint64_t{message.step} * message.height;
-  if (!sized || !filled) {
-    return Invalid("an image of " + std::to_string(message.width) + " x " +
-                   std::to_string(message.height) + " pixels in " +
-                   std::to_string(message.data._length) + " bytes");
-  }
-  return Status::Ok();
-}
-
 Status FromDepthImage(const Image& message, rgbd::DepthImage* image) {
   if (Status frame = CheckFrame(message.header, false); !frame.ok()) return frame;
   return CopyImage(message, "16UC1", image);
@@ -97,26 +81,6 @@ Status FromDepthImage(const Image& message, rgbd::DepthImage* image) {
 Status FromColorImage(const Image& message, rgbd::ColorImage* image) {
   if (Status frame = CheckFrame(message.header, true); !frame.ok()) return frame;
   return CopyImage(message, "rgb8", image);
-}
-
-Status FromCameraInfo(const CameraInfo& message, rgbd::CameraModel* camera) {
-  rgbd::CameraModel lens;
-  if (!IsSide(message.width) || !IsSide(message.height)) {
-    return Invalid("a camera of " + std::to_string(message.width) + " x " +
-                   std::to_string(message.height) + " pixels");
-  }
-  lens.width_px = static_cast<int>(message.width);
-  lens.height_px = static_cast<int>(message.height);
-  if (!AllFinite(message.k, 9) || message.k[0] < 0.0 || message.k[4] < 0.0) {
-    return Invalid("intrinsics that are no numbers of a camera");
-  }
-  lens.fx_px = message.k[0];
-  lens.cx_px = message.k[2];
-  lens.fy_px = message.k[4];
-  lens.cy_px = message.k[5];
-  if (Status status = ReadDistortion(message, &lens); !status.ok()) return status;
-  *camera = lens;
-  return Status::Ok();
 }
 
 Status FromCameraSetup(const idl::palpate_msgs::CameraSetup& message, CameraSetup* setup) {

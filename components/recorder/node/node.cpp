@@ -29,15 +29,6 @@ std::string TimeForName() {
   return text;
 }
 
-dds::RawTopic RawTopicOf(const dds::Publication& publication) {
-  return {.dds_topic = publication.dds_topic,
-          .dds_type = publication.dds_type,
-          .reliability = publication.reliability,
-          .durability = publication.durability,
-          .has_key = publication.has_key,
-          .this_host_only = publication.this_host_only};
-}
-
 }  // namespace
 
 RecorderNode::RecorderNode(const NodeConfig& config, RecordPlan plan, int domain_id,
@@ -99,7 +90,7 @@ void RecorderNode::Follow(const dds::Publication& publication) {
   if (!topic) {
     const TopicDescription description = Describe(publication);
     topic = std::make_unique<RecordedTopic>(
-        participant_.handle(), RawTopicOf(publication), description,
+        participant_.handle(), dds::RawTopicOf(publication), description,
         [this](RecordedMessage message) { return thread_.Push(std::move(message)); });
     log_.Write(Severity::kInfo, "records " + description.topic + " (" + description.type + ")");
     if (description.schema.empty()) {
@@ -112,13 +103,9 @@ void RecorderNode::Follow(const dds::Publication& publication) {
   }
   // A reader that asks for more than a writer offers gets nothing of that writer.
   dds::RawTopic asked = topic->topic();
-  const bool too_reliable = asked.reliability == dds::Reliability::kReliable &&
-                            publication.reliability == dds::Reliability::kBestEffort;
-  const bool too_durable = asked.durability == dds::Durability::kTransientLocal &&
-                           publication.durability == dds::Durability::kVolatile;
-  if (!too_reliable && !too_durable) return;
-  if (too_reliable) asked.reliability = dds::Reliability::kBestEffort;
-  if (too_durable) asked.durability = dds::Durability::kVolatile;
+  const bool was_reliable = asked.reliability == dds::Reliability::kReliable;
+  if (!dds::AskLess(publication, &asked)) return;
+  const bool too_reliable = was_reliable && asked.reliability == dds::Reliability::kBestEffort;
   topic->Read(participant_.handle(), asked, Describe(publication));
   log_.Write(Severity::kWarning,
              topic->description().topic + ": a writer offers less than another one: read as " +

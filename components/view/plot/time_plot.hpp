@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/view/color.hpp"
+#include "components/view/picture/color.hpp"
 
 namespace palpate::view {
 

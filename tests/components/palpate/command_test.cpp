@@ -17,7 +17,6 @@
 #include <sstream>
 #include <thread>
 
-#include "components/palpate/child_process.hpp"
 #include "components/palpate/diagnose_verb.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -25,6 +24,7 @@
 #include "components/palpate/progress_line.hpp"
 #include "components/palpate/reference_verb.hpp"
 #include "components/palpate/robot_scene.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
@@ -194,7 +194,7 @@ TEST(Command, SaysThatAMeshIsTooLargeForItsUnit) {
 }
 
 /// The process is asked to end once `file` is there.
-int InterruptOnce(ChildProcess* process, const std::filesystem::path& file) {
+int InterruptOnce(app::ChildProcess* process, const std::filesystem::path& file) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!std::filesystem::exists(file) && !process->ExitCode() &&
          std::chrono::steady_clock::now() < end) {
@@ -226,10 +226,10 @@ TEST(Interrupted, SolveLeavesTheRowsThatItHas) {
   std::string rows = "t_s\n";
   for (int i = 0; i < 100000; ++i) rows += std::to_string(i) + "\n";
   const std::string out = (folder / "out").string();
-  ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate",
-                       {"solve", WriteBarRobot(folder).string(), "--actuation",
-                        folder.Write("a.csv", rows).string(), "--out", out},
-                       {}, folder / "log");
+  app::ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate",
+                            {"solve", WriteBarRobot(folder).string(), "--actuation",
+                             folder.Write("a.csv", rows).string(), "--out", out},
+                            {}, folder / "log");
   EXPECT_EQ(InterruptOnce(&process, folder / "out/nodes_0002.csv"), 130);
   EXPECT_THAT(ReadFile(folder / "log"),
               testing::ContainsRegex(
@@ -273,8 +273,8 @@ TEST(Interrupted, ATemporaryFolderIsRemoved) {
 
 TEST(ChildProcess, ReportsTheExitCodeAndKeepsTheOutput) {
   const TestFolder folder;
-  ChildProcess process("/bin/sh", {"-c", "echo $GREETING; exit 3"}, {{"GREETING", "hello"}},
-                       folder / "log");
+  app::ChildProcess process("/bin/sh", {"-c", "echo $GREETING; exit 3"}, {{"GREETING", "hello"}},
+                            folder / "log");
   EXPECT_EQ(process.Wait(), 3);
   EXPECT_EQ(process.ExitCode(), 3);
   EXPECT_EQ(process.Stop(), 3);
@@ -283,7 +283,7 @@ TEST(ChildProcess, ReportsTheExitCodeAndKeepsTheOutput) {
 
 TEST(ChildProcess, EndsWhatStillRuns) {
   const TestFolder folder;
-  ChildProcess process("/bin/sleep", {"1000"}, {}, folder / "log");
+  app::ChildProcess process("/bin/sleep", {"1000"}, {}, folder / "log");
   EXPECT_FALSE(process.ExitCode());
   EXPECT_EQ(process.Stop(), 128 + SIGINT);
 }
@@ -291,16 +291,17 @@ TEST(ChildProcess, EndsWhatStillRuns) {
 TEST(ChildProcess, GivesWayWithAllThatItStarts) {
   const TestFolder folder;
   const std::string ours = std::to_string(getpriority(PRIO_PROCESS, 0));
-  ChildProcess process("/bin/sh", {"-c", "until test $(nice) -gt $0; do sleep 0.01; done", ours},
-                       {}, folder / "log");
+  app::ChildProcess process("/bin/sh",
+                            {"-c", "until test $(nice) -gt $0; do sleep 0.01; done", ours}, {},
+                            folder / "log");
   process.GiveWay();
   EXPECT_EQ(process.Wait(), 0) << ReadFile(folder / "log");
 }
 
 TEST(ChildProcess, RefusesAProgramThatIsNotThere) {
   const TestFolder folder;
-  EXPECT_THROW(ChildProcess("/no/such/program", {}, {}, folder / "log"), RunError);
-  EXPECT_THROW(ChildProcess("/bin/true", {}, {}, "/no/such/folder/log"), RunError);
+  EXPECT_THROW(app::ChildProcess("/no/such/program", {}, {}, folder / "log"), RunError);
+  EXPECT_THROW(app::ChildProcess("/bin/true", {}, {}, "/no/such/folder/log"), RunError);
 }
 
 }  // namespace

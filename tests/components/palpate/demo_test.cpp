@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 int RunDemo(const TestFolder& folder, const std::vector<std::string>& more) {
   std::vector<std::string> words = {"demo", "--out", (folder / "demo").string()};
   words.insert(words.end(), more.begin(), more.end());
-  ChildProcess demo(PALPATE_BINARY_DIR "/bin/palpate", words, {}, folder / "log");
+  app::ChildProcess demo(PALPATE_BINARY_DIR "/bin/palpate", words, {}, folder / "log");
   return demo.Wait();
 }
 
@@ -76,9 +76,9 @@ std::vector<std::string> ProgramsOfDomain(const std::string& domain) {
 
 TEST(Demo, AnInterruptEndsAllProcesses) {
   const TestFolder folder;
-  ChildProcess demo(PALPATE_BINARY_DIR "/bin/palpate",
-                    {"demo", "--out", (folder / "demo").string(), "--seconds", "600"}, {},
-                    folder / "log");
+  app::ChildProcess demo(PALPATE_BINARY_DIR "/bin/palpate",
+                         {"demo", "--out", (folder / "demo").string(), "--seconds", "600"}, {},
+                         folder / "log");
   // The domain, once it is printed; then until all four of the sensing side run.
   std::string domain;
   const auto all_run = [&] {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 #include "tests/support/measured_data.hpp"
@@ -35,7 +35,7 @@ class MeasuredBeam : public testing::Test {
   }
 
   void Palpate(const std::vector<std::string>& words) {
-    ChildProcess program(PALPATE_BINARY_DIR "/bin/palpate", words, {}, folder_ / "log");
+    app::ChildProcess program(PALPATE_BINARY_DIR "/bin/palpate", words, {}, folder_ / "log");
     ASSERT_EQ(program.Wait(), 0) << ReadFile(folder_ / "log");
   }
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/recordings/topic_recording.hpp"
@@ -38,7 +38,7 @@ class ExportOfAnExperiment : public testing::Test {
     messages.WriteMcap(folder_ / "run.mcap");
   }
 
-  ChildProcess Export() {
+  app::ChildProcess Export() {
     return {PALPATE_BINARY_DIR "/bin/palpate",
             {"export", (folder_ / "run.mcap").string(), "--experiment", out_.string()},
             {},
@@ -51,7 +51,7 @@ class ExportOfAnExperiment : public testing::Test {
 
 TEST_F(ExportOfAnExperiment, LeavesNoFolderWhereItFails) {
   WriteRecording(1, false);
-  ChildProcess process = Export();
+  app::ChildProcess process = Export();
   EXPECT_EQ(process.Wait(), app::kExitUsage);
   EXPECT_THAT(ReadFile(folder_ / "log"), testing::HasSubstr("no intrinsics"));
   EXPECT_FALSE(std::filesystem::exists(out_));
@@ -59,7 +59,7 @@ TEST_F(ExportOfAnExperiment, LeavesNoFolderWhereItFails) {
 
 TEST_F(ExportOfAnExperiment, LeavesNoFolderWhereItIsInterrupted) {
   WriteRecording(100, true);
-  ChildProcess process = Export();
+  app::ChildProcess process = Export();
   while (!std::filesystem::exists(out_ / "recordings") && !process.ExitCode()) {
     std::this_thread::yield();
   }

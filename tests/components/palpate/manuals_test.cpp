@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 
@@ -49,7 +49,7 @@ class Manuals : public testing::Test {
 
   /// What bash prints.
   std::string Bash(const std::string& command) const {
-    ChildProcess bash("/bin/bash", {"-c", command}, {}, folder_ / "log");
+    app::ChildProcess bash("/bin/bash", {"-c", command}, {}, folder_ / "log");
     const int exit_code = bash.Wait();
     const std::string output = ReadFile(folder_ / "log");
     EXPECT_EQ(exit_code, 0) << command << "\n" << output;

@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "components/palpate/child_process.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/recordings/make_experiment.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -26,10 +26,12 @@ class RecordedExperiment : public testing::Test {
  protected:
   /// Both recordings of the beam begin at 0.
   void PlayAndRecord() {
-    ChildProcess recorder(kProgramFolder / "palpate-recorder",
-                          {"--out", file_.string(), "--robot", "beam"}, {}, folder_ / "recorder");
-    ChildProcess player(kProgramFolder / "palpate-player",
-                        {"--data", kPlayedBeam.string(), "--rate", "8"}, {}, folder_ / "player");
+    app::ChildProcess recorder(kProgramFolder / "palpate-recorder",
+                               {"--out", file_.string(), "--robot", "beam"}, {},
+                               folder_ / "recorder");
+    app::ChildProcess player(kProgramFolder / "palpate-player",
+                             {"--data", kPlayedBeam.string(), "--rate", "8"}, {},
+                             folder_ / "player");
     ASSERT_EQ(player.Wait(), 0) << ReadFile(folder_ / "player");
     ASSERT_EQ(recorder.Stop(), 0) << ReadFile(folder_ / "recorder");
     // What no topic says.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/camera.hpp"
+#include "components/view/picture/camera.hpp"
 
 #include <gtest/gtest.h>
 

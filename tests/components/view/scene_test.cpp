@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/scene.hpp"
+#include "components/view/picture/scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "components/view/png.hpp"
-#include "components/view/surface_edges.hpp"
+#include "components/view/picture/png.hpp"
+#include "components/view/picture/surface_edges.hpp"
 #include "libs/core/error.hpp"
 #include "tests/support/not_a_number.hpp"
 

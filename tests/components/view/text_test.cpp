@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/text.hpp"
+#include "components/view/picture/text.hpp"
 
 #include <gtest/gtest.h>
 
-#include "components/view/glyphs.hpp"
+#include "components/view/picture/glyphs.hpp"
 
 namespace palpate::view {
 namespace {

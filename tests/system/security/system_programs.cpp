@@ -27,6 +27,7 @@ std::vector<WaitingProgram> WaitingPrograms() {
       {"motion_capture",
        {"--mocap-pose", pose, "--set", "multicast_group=\"\"", "--set", "port=15119", "--set",
         "interface_address=127.0.0.1"}},
+      {"view", {"--set", "http.port=0", "--set", "foxglove.port=0"}},
       {"virtual_robot",
        {"four_leg", "--scenario", scenario, "--set", "publish_clock=true", "--set", "threads=1"}},
       {"virtual_camera",

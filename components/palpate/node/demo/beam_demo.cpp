@@ -9,13 +9,13 @@
 #include <optional>
 
 #include "components/palpate/calibrate/calibrate_verb.hpp"
-#include "components/palpate/child_process.hpp"
 #include "components/palpate/demo_data.hpp"
 #include "components/palpate/demo_scene.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/node/demo/demo_place.hpp"
 #include "components/palpate/node/demo/demo_step.hpp"
 #include "components/palpate/node/demo/force_listener.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/core/text.hpp"
 
@@ -51,7 +51,7 @@ void CalibrateOnSelfWeight(const DemoData& data, const DemoPlace& place) {
   Calibrate(options);
 }
 
-std::unique_ptr<ChildProcess> StartEstimation(const DemoData& data, const DemoPlace& place) {
+std::unique_ptr<app::ChildProcess> StartEstimation(const DemoData& data, const DemoPlace& place) {
   return place.Start(
       "palpate-force-estimation",
       {FindRobotFile("beam").string(), "--calibration", CalibrationFile(place).string(), "--set",
@@ -60,7 +60,7 @@ std::unique_ptr<ChildProcess> StartEstimation(const DemoData& data, const DemoPl
       "force_estimation.log");
 }
 
-std::unique_ptr<ChildProcess> StartPlayer(const DemoData& data, const DemoPlace& place) {
+std::unique_ptr<app::ChildProcess> StartPlayer(const DemoData& data, const DemoPlace& place) {
   return place.Start(
       "palpate-player",
       {"--data", data.experiment.string(), "--recording", data.hung_weight, "--step"},

@@ -41,12 +41,12 @@ std::string LastLine(const std::filesystem::path& file) {
 
 std::string DemoPlace::CameraAddress() const { return fmt::format("127.41.{}.1", domain_id); }
 
-std::unique_ptr<ChildProcess> DemoPlace::Start(const std::string& program,
-                                               std::vector<std::string> arguments,
-                                               const std::string& log) const {
+std::unique_ptr<app::ChildProcess> DemoPlace::Start(const std::string& program,
+                                                    std::vector<std::string> arguments,
+                                                    const std::string& log) const {
   arguments.insert(arguments.end(), {"--domain", std::to_string(domain_id)});
-  return std::make_unique<ChildProcess>(programs / program, arguments,
-                                        std::map<std::string, std::string>{}, folder / log);
+  return std::make_unique<app::ChildProcess>(programs / program, arguments,
+                                             std::map<std::string, std::string>{}, folder / log);
 }
 
 DemoPlace MakeDemoPlace(const std::filesystem::path& out) {
@@ -67,7 +67,7 @@ DemoPlace MakeDemoPlace(const std::filesystem::path& out) {
   return place;
 }
 
-void RefuseEnded(const ChildProcess& process, int exit_code) {
+void RefuseEnded(const app::ChildProcess& process, int exit_code) {
   RefuseEnded(process.name(), fmt::format("exit code {}", exit_code), process.log());
 }
 

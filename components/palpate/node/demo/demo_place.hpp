@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 
 namespace palpate::command {
 
@@ -24,9 +24,9 @@ struct DemoPlace {
   /// A loopback address that no other demonstration uses, for the virtual camera.
   std::string CameraAddress() const;
   /// Starts a program in the domain; its output goes to `log` in the folder. Throws RunError.
-  std::unique_ptr<ChildProcess> Start(const std::string& program,
-                                      std::vector<std::string> arguments,
-                                      const std::string& log) const;
+  std::unique_ptr<app::ChildProcess> Start(const std::string& program,
+                                           std::vector<std::string> arguments,
+                                           const std::string& log) const;
 };
 
 /// `out`: the folder, made where it is absent; empty: demo/ beside the folder of the programs. From
@@ -35,7 +35,7 @@ struct DemoPlace {
 DemoPlace MakeDemoPlace(const std::filesystem::path& out);
 
 /// Throws RunError with the process, how it ended, its log and the last line of the log.
-[[noreturn]] void RefuseEnded(const ChildProcess& process, int exit_code);
+[[noreturn]] void RefuseEnded(const app::ChildProcess& process, int exit_code);
 [[noreturn]] void RefuseEnded(const std::string& process, const std::string& end,
                               const std::filesystem::path& log);
 

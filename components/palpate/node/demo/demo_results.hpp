@@ -7,7 +7,7 @@
 #include <string>
 
 #include "components/palpate/compare/live_comparison.hpp"
-#include "components/view/scene.hpp"
+#include "components/view/picture/scene.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {

@@ -119,6 +119,12 @@ class DemoRun {
   std::string log_folder_hint_;
 };
 
+void TellPage(const SystemProcesses& processes) {
+  const std::string url = processes.PageUrl();
+  if (!url.empty()) fmt::print("  Look at it in a browser: {}\n", url);
+  std::fflush(stdout);
+}
+
 void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot,
                const std::string& camera_address, DemoRun* run) {
   const std::filesystem::path scenario_file = ScenarioFile(options);
@@ -143,6 +149,7 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
+  TellPage(run->processes());
   const int seconds = options.seconds > 0 ? options.seconds : kUsualSeconds;
   const DemoStep step(fmt::format("[2/3] {} s of {}: forces against truth", seconds,
                                   scenario_file.filename().string()));

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include "components/palpate/launch/launch_plan.hpp"
 #include "libs/app/yaml.hpp"
@@ -14,6 +15,13 @@
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
+
+namespace {
+
+/// A demonstration without its page is still one.
+constexpr const char* kPage = "view";
+
+}  // namespace
 
 void LogFiles::Line(const std::string& process, std::string_view line) {
   Append(FileOf(process), line);
@@ -66,7 +74,7 @@ void SystemProcesses::CheckAlive() {
   if (!launcher_) return;
   launcher_->Turn(0.0);
   for (const ProcessReport& report : launcher_->Reports()) {
-    if (report.state != LaunchState::kFailed) continue;
+    if (report.state != LaunchState::kFailed || report.name == kPage) continue;
     RefuseEnded(report.name, report.reason, logs_.FileOf(report.name));
   }
 }
@@ -76,6 +84,16 @@ bool SystemProcesses::HasEnded(const std::string& process) const {
     if (report.name == process) return report.state == LaunchState::kFinished;
   }
   return false;
+}
+
+std::string SystemProcesses::PageUrl() const {
+  std::ifstream log(logs_.FileOf(kPage));
+  constexpr std::string_view kMark = "page: ";
+  for (std::string line; std::getline(log, line);) {
+    const std::size_t at = line.find(kMark);
+    if (at != line.npos) return line.substr(at + kMark.size());
+  }
+  return {};
 }
 
 void SystemProcesses::Stop() {

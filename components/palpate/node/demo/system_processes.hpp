@@ -55,6 +55,8 @@ class SystemProcesses {
   void CheckAlive();
   /// Whether the process has ended.
   bool HasEnded(const std::string& process) const;
+  /// Of the live page, once it has said so; empty: there is none.
+  std::string PageUrl() const;
   /// Lets all end, the youngest first.
   void Stop();
 

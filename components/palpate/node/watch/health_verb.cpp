@@ -21,7 +21,7 @@ namespace palpate::command {
 
 namespace {
 
-ComponentHealth HealthOf(const ProcessState& process, bool any_status) {
+ComponentHealth HealthOf(const monitor::ProcessState& process, bool any_status) {
   if (process.IsSilent()) {
     return {process.name, false, "silent",
             fmt::format("no report for {:.1f} s", process.silence_s)};
@@ -57,19 +57,19 @@ void PrintText(int domain_id, const std::vector<ComponentHealth>& components) {
 
 }  // namespace
 
-std::vector<ComponentHealth> HealthOf(const SystemSnapshot& snapshot,
+std::vector<ComponentHealth> HealthOf(const monitor::SystemSnapshot& snapshot,
                                       const std::vector<std::string>& components, bool any_status) {
   std::vector<ComponentHealth> health;
   if (components.empty()) {
-    for (const ProcessState& process : snapshot.processes) {
+    for (const monitor::ProcessState& process : snapshot.processes) {
       health.push_back(HealthOf(process, any_status));
     }
   }
   for (std::string name : components) {
     std::replace(name.begin(), name.end(), '-', '_');
-    const auto process =
-        std::find_if(snapshot.processes.begin(), snapshot.processes.end(),
-                     [&](const ProcessState& candidate) { return candidate.name == name; });
+    const auto process = std::find_if(
+        snapshot.processes.begin(), snapshot.processes.end(),
+        [&](const monitor::ProcessState& candidate) { return candidate.name == name; });
     health.push_back(process != snapshot.processes.end()
                          ? HealthOf(*process, any_status)
                          : ComponentHealth{name, false, "no report", ""});

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "components/palpate/node/watch/system_snapshot.hpp"
 #include "libs/app/verbs.hpp"
+#include "libs/monitor/system_snapshot.hpp"
 
 namespace palpate::command {
 
@@ -30,7 +30,7 @@ struct ComponentHealth {
 
 /// One entry for each of `components`, or, where these are empty, for each process that reported.
 /// With `any_status` whoever reports is well.
-std::vector<ComponentHealth> HealthOf(const SystemSnapshot& snapshot,
+std::vector<ComponentHealth> HealthOf(const monitor::SystemSnapshot& snapshot,
                                       const std::vector<std::string>& components, bool any_status);
 
 /// Waits until all components are well, and prints a line for each. Returns the exit code: 1 where

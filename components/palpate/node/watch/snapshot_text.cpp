@@ -23,14 +23,14 @@ std::string InBrackets(const std::string& reason) {
 
 std::string Ms(double seconds) { return fmt::format("{:.0f} ms", 1e3 * seconds); }
 
-std::string FlowText(const TopicFlow& flow) {
+std::string FlowText(const monitor::TopicFlow& flow) {
   if (flow.silence_s > kOld_s) return fmt::format("no message for {:.1f} s", flow.silence_s);
   std::string text = fmt::format("{:.1f}/s", flow.rate_hz);
   if (flow.lost > 0) text += fmt::format(", {} of {} lost", flow.lost, flow.received + flow.lost);
   return text;
 }
 
-std::string ForceLine(const ForceState& force) {
+std::string ForceLine(const monitor::ForceState& force) {
   const Eigen::Vector3d at_mm = 1e3 * force.position_m;
   std::string size = force.force_N.allFinite()
                          ? fmt::format("{:8.3f} +- {:.3f} N", force.force_N.norm(), force.ci95_N)
@@ -44,18 +44,18 @@ std::string ForceLine(const ForceState& force) {
                      InBrackets(force.reason));
 }
 
-std::string ForcesText(const SystemSnapshot& snapshot) {
+std::string ForcesText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.forces) return "FORCES       no message on /forces\n";
-  const ForcesState& state = *snapshot.forces;
+  const monitor::ForcesState& state = *snapshot.forces;
   std::string text = fmt::format("FORCES       {}{}; {}", state.status, InBrackets(state.reason),
                                  FlowText(state.flow));
   text += fmt::format("; age {}, of it estimation {}\n", Ms(state.age_s), Ms(state.latency_s));
-  for (const ForceState& force : state.forces) text += ForceLine(force);
+  for (const monitor::ForceState& force : state.forces) text += ForceLine(force);
   if (state.forces.empty()) text += "  none\n";
   return text;
 }
 
-std::string ModelErrorText(const SystemSnapshot& snapshot) {
+std::string ModelErrorText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.model_error) return {};
   const ModelErrorState& state = *snapshot.model_error;
   return fmt::format("MODEL ERROR  {}residual {:.2f} mm, noise {:.2f} mm, {} samples; {}\n",
@@ -64,7 +64,7 @@ std::string ModelErrorText(const SystemSnapshot& snapshot) {
                      FlowText(state.flow));
 }
 
-std::string PerceptionText(const SystemSnapshot& snapshot) {
+std::string PerceptionText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.perception) return {};
   const PerceptionState& state = *snapshot.perception;
   std::string text =
@@ -75,7 +75,7 @@ std::string PerceptionText(const SystemSnapshot& snapshot) {
   return text;
 }
 
-std::string CameraText(const SystemSnapshot& snapshot) {
+std::string CameraText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.camera) return {};
   const CameraState& state = *snapshot.camera;
   return fmt::format(
@@ -85,10 +85,10 @@ std::string CameraText(const SystemSnapshot& snapshot) {
       state.frames_dropped, state.packets_lost);
 }
 
-std::string CablesText(const SystemSnapshot& snapshot) {
+std::string CablesText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.cables) return {};
   std::string text = "CABLES       " + FlowText(snapshot.cables->flow);
-  for (const CableValue& cable : snapshot.cables->cables) {
+  for (const monitor::CableValue& cable : snapshot.cables->cables) {
     text += "; " + cable.name;
     if (std::isfinite(cable.displacement_m)) {
       text += fmt::format(" {:.1f} mm", 1e3 * cable.displacement_m);
@@ -98,12 +98,12 @@ std::string CablesText(const SystemSnapshot& snapshot) {
   return text + "\n";
 }
 
-std::string MeshText(const SystemSnapshot& snapshot) {
+std::string MeshText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.mesh) return {};
   return fmt::format("MESH STATE   {}; {}\n", snapshot.mesh->status, FlowText(snapshot.mesh->flow));
 }
 
-std::string CalibrationText(const SystemSnapshot& snapshot) {
+std::string CalibrationText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.calibration) return {};
   const CalibrationState& state = *snapshot.calibration;
   std::string text = "CALIBRATION  " + state.state;
@@ -113,7 +113,7 @@ std::string CalibrationText(const SystemSnapshot& snapshot) {
   return text + InBrackets(state.reason) + "\n";
 }
 
-std::string ProcessLine(const ProcessState& process) {
+std::string ProcessLine(const monitor::ProcessState& process) {
   const std::string status =
       process.IsSilent() ? fmt::format("silent {:.0f} s", process.silence_s) : process.status;
   std::string line = fmt::format(
@@ -127,18 +127,18 @@ std::string ProcessLine(const ProcessState& process) {
   return line;
 }
 
-std::string ProcessesText(const SystemSnapshot& snapshot) {
+std::string ProcessesText(const monitor::SystemSnapshot& snapshot) {
   std::string text = fmt::format(
       "PROCESSES\n  {:<17} {:<16} {:>7} {:>7} {:>7} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "",
       "status", "in/s", "out/s", "mean ms", "max ms", "received", "published", "dropped", "refused",
       "uptime s");
-  for (const ProcessState& process : snapshot.processes) text += ProcessLine(process);
+  for (const monitor::ProcessState& process : snapshot.processes) text += ProcessLine(process);
   return text;
 }
 
-std::string ClocksText(const SystemSnapshot& snapshot) {
+std::string ClocksText(const monitor::SystemSnapshot& snapshot) {
   std::string text;
-  for (const ClockState& clock : snapshot.clocks) {
+  for (const monitor::ClockState& clock : snapshot.clocks) {
     text +=
         fmt::format("{}{} is {:.1f} ms {} {}, +- {:.1f} ms", text.empty() ? "CLOCKS       " : "; ",
                     clock.other_host, 1e3 * std::abs(clock.offset_s),
@@ -147,7 +147,7 @@ std::string ClocksText(const SystemSnapshot& snapshot) {
   return text.empty() ? text : text + "\n";
 }
 
-std::string OthersText(const SystemSnapshot& snapshot) {
+std::string OthersText(const monitor::SystemSnapshot& snapshot) {
   if (snapshot.others.empty()) return {};
   std::string text = "OTHER DIAGNOSTICS\n";
   for (const OtherDiagnosis& other : snapshot.others) {
@@ -159,7 +159,7 @@ std::string OthersText(const SystemSnapshot& snapshot) {
 
 }  // namespace
 
-std::string SnapshotText(const SystemSnapshot& snapshot) {
+std::string SnapshotText(const monitor::SystemSnapshot& snapshot) {
   std::string text = fmt::format("palpate watch, domain {}, {}\n", snapshot.domain_id,
                                  UtcTextOfNs(snapshot.time_ns));
   if (snapshot.processes.empty()) {

@@ -5,16 +5,12 @@
 
 #include <string>
 
-#include "components/palpate/node/watch/system_snapshot.hpp"
+#include "libs/monitor/system_snapshot.hpp"
 
 namespace palpate::command {
 
 /// The snapshot for a person: forces first, then what they rest on, then the processes. Lines of
 /// text, each with its line end.
-std::string SnapshotText(const SystemSnapshot& snapshot);
-
-/// The snapshot as one JSON object on one line, without a line end. Names end in their unit,
-/// numbers that are not known are null, what has sent nothing is null.
-std::string SnapshotJson(const SystemSnapshot& snapshot);
+std::string SnapshotText(const monitor::SystemSnapshot& snapshot);
 
 }  // namespace palpate::command

@@ -57,7 +57,7 @@ void SystemListener::Listen(const std::function<bool()>& done,
   loop_.DispatchUntil(done, dds::WaitSet::Clock::now() + FromSeconds(limit.count()));
 }
 
-SystemSnapshot SystemListener::Snapshot() const {
+monitor::SystemSnapshot SystemListener::Snapshot() const {
   return builder_.At(MonotonicNow_s(), dds::WallClockNs());
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "components/palpate/node/watch/snapshot_builder.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/wait_set.hpp"
+#include "libs/monitor/snapshot_builder.hpp"
 
 namespace palpate::command {
 
@@ -25,7 +25,7 @@ class SystemListener {
   /// Takes messages until `done()` holds, which is asked at least every 50 ms, or `limit` passes.
   void Listen(const std::function<bool()>& done, std::chrono::duration<double> limit);
 
-  SystemSnapshot Snapshot() const;
+  monitor::SystemSnapshot Snapshot() const;
 
   /// Whether every process that DDS has found has reported, and there is one.
   bool HeardAll() const;
@@ -36,7 +36,7 @@ class SystemListener {
 
   dds::Participant participant_;
   dds::WaitSet loop_;
-  SnapshotBuilder builder_;
+  monitor::SnapshotBuilder builder_;
   dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
   dds::Reader<idl::diagnostic_msgs::DiagnosticArray> diagnostics_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;

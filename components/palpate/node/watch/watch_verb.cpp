@@ -18,6 +18,7 @@
 #include "libs/app/stop_signal.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/monitor/snapshot_json.hpp"
 
 namespace palpate::command {
 
@@ -43,9 +44,9 @@ void ShowInPlace(const std::string& text) {
   fmt::print("{}\033[J", screen);
 }
 
-void Show(const SystemSnapshot& snapshot, const WatchOptions& options) {
+void Show(const monitor::SystemSnapshot& snapshot, const WatchOptions& options) {
   if (options.json) {
-    fmt::print("{}\n", SnapshotJson(snapshot));
+    fmt::print("{}\n", monitor::SnapshotJson(snapshot));
   } else if (options.once) {
     fmt::print("{}", SnapshotText(snapshot));
   } else if (IsTerminal()) {
@@ -64,7 +65,7 @@ int WatchOnce(const WatchOptions& options, SystemListener* listener) {
            (listener->HeardAll() && dds::WaitSet::Clock::now() - begin >= kOneReport);
   };
   listener->Listen(complete, duration<double>(options.timeout_s));
-  const SystemSnapshot snapshot = listener->Snapshot();
+  const monitor::SystemSnapshot snapshot = listener->Snapshot();
   Show(snapshot, options);
   return snapshot.processes.empty() ? app::kExitFailed : app::kExitDone;
 }

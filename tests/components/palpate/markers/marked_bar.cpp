@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "components/palpate/child_process.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
@@ -125,7 +125,7 @@ void MarkedBar::ChangeRobot(const std::string& old, const std::string& by, bool 
 
 ProgramRun MarkedBar::Run(std::vector<std::string> words) const {
   const auto log = folder_ / "log";
-  ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate", std::move(words), {}, log);
+  app::ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate", std::move(words), {}, log);
   const int code = process.Wait();
   return {code, ReadFile(log)};
 }

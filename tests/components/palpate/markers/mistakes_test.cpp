@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/markers/marked_bar.hpp"
 
@@ -161,10 +161,10 @@ TEST_F(Mistakes, ADiagnosisThatIsInterrupted) {
   TellPose(T_robot_camera_);
   const std::filesystem::path report = folder_ / "report";
   folder_.Write("report/robot.extended.yaml", "of an earlier diagnosis\n");
-  ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate",
-                       {"diagnose", robot_.string(), "--data", (folder_ / "data").string(), "--out",
-                        report.string()},
-                       {}, folder_ / "log");
+  app::ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate",
+                            {"diagnose", robot_.string(), "--data", (folder_ / "data").string(),
+                             "--out", report.string()},
+                            {}, folder_ / "log");
   // Past the first step of the search, not before the program reads what stops it.
   while (!process.ExitCode() &&
          ReadFile(folder_ / "log").find("simulating the nominal robot") == std::string::npos) {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "components/palpate/child_process.hpp"
+#include "libs/app/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
@@ -259,7 +259,7 @@ TEST(TopicEcho, ReadsATypeThatOnlyThePublisherKnows) {
                   [&] { EXPECT_EQ(dds_write(writer.handle(), &*message), DDS_RETCODE_OK); });
   node.Run();
   const test_support::TestFolder folder;
-  ChildProcess echo(
+  app::ChildProcess echo(
       std::filesystem::path(PALPATE_BINARY_DIR) / "bin/palpate",
       {"topic", "echo", "PlainTopic", "--once", "--field", "status", "--spin-time", "10"}, {},
       folder / "log");

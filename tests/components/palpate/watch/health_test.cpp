@@ -55,9 +55,9 @@ Answer Ask(std::vector<std::string> words) {
   return {code, testing::internal::GetCapturedStdout()};
 }
 
-SystemSnapshot SnapshotOf(const std::string& status, double silence_s) {
-  SystemSnapshot snapshot;
-  ProcessState& process = snapshot.processes.emplace_back();
+monitor::SystemSnapshot SnapshotOf(const std::string& status, double silence_s) {
+  monitor::SystemSnapshot snapshot;
+  monitor::ProcessState& process = snapshot.processes.emplace_back();
   process.name = "capture";
   process.status = status;
   process.silence_s = silence_s;

@@ -7,10 +7,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "components/palpate/node/watch/snapshot_builder.hpp"
 #include "components/palpate/node/watch/snapshot_text.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
+#include "libs/monitor/snapshot_builder.hpp"
+#include "libs/monitor/snapshot_json.hpp"
 
 namespace palpate::command {
 namespace {
@@ -70,33 +71,33 @@ dds::Message<idl::palpate_msgs::ForceArray> Forces(std::uint64_t counter, double
 }
 
 /// Thirty messages a second from `begin_s` on, for a second.
-void AddForces(SnapshotBuilder& builder, double begin_s) {
+void AddForces(monitor::SnapshotBuilder& builder, double begin_s) {
   for (std::uint64_t i = 0; i <= 30; ++i) {
     builder.Add(*Forces(i, 0.521), begin_s + static_cast<double>(i) / 30.0);
   }
 }
 
 TEST(Snapshot, WithoutAProcessItSaysSoWithTheDomain) {
-  const SystemSnapshot snapshot = SnapshotBuilder(61).At(1.0, 0);
+  const monitor::SystemSnapshot snapshot = monitor::SnapshotBuilder(61).At(1.0, 0);
   EXPECT_THAT(SnapshotText(snapshot), HasSubstr("no palpate process in domain 61"));
   EXPECT_THAT(SnapshotText(snapshot), Not(HasSubstr("PROCESSES")));
-  const Json json = Json::parse(SnapshotJson(snapshot));
+  const Json json = Json::parse(monitor::SnapshotJson(snapshot));
   EXPECT_EQ(json.at("domain"), 61);
   EXPECT_TRUE(json.at("processes").empty());
   EXPECT_TRUE(json.at("forces").is_null());
 }
 
 TEST(Snapshot, ForcesHavePlaceSizeIntervalRateAndAge) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   AddForces(builder, 10.0);
-  const SystemSnapshot snapshot = builder.At(11.0, 0);
+  const monitor::SystemSnapshot snapshot = builder.At(11.0, 0);
   ASSERT_TRUE(snapshot.forces);
   EXPECT_NEAR(snapshot.forces->flow.rate_hz, 30.0, 1e-6);
   const std::string text = SnapshotText(snapshot);
   EXPECT_THAT(text, HasSubstr("FORCES       ok; 30.0/s; age 34 ms, of it estimation 9 ms\n"));
   EXPECT_THAT(text, testing::ContainsRegex(
                         "ball +0.521 \\+- 0.040 N +at \\(12, -5, 80\\) mm \\+- 3 mm +ok\n"));
-  const Json force = Json::parse(SnapshotJson(snapshot)).at("forces").at("contacts").at(0);
+  const Json force = Json::parse(monitor::SnapshotJson(snapshot)).at("forces").at("contacts").at(0);
   EXPECT_EQ(force.at("name"), "ball");
   EXPECT_NEAR(force.at("size_N"), 0.521, 1e-12);
   EXPECT_NEAR(force.at("force_robot_N").at(2), -0.521, 1e-12);
@@ -105,15 +106,15 @@ TEST(Snapshot, ForcesHavePlaceSizeIntervalRateAndAge) {
 }
 
 TEST(Snapshot, AForceThatIsNotKnownIsNoNumber) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   builder.Add(*Forces(0, kNaN), 1.0);
   EXPECT_THAT(SnapshotText(builder.At(1.0, 0)), HasSubstr("? N"));
-  const Json json = Json::parse(SnapshotJson(builder.At(1.0, 0)));
+  const Json json = Json::parse(monitor::SnapshotJson(builder.At(1.0, 0)));
   EXPECT_TRUE(json.at("forces").at("contacts").at(0).at("size_N").is_null());
 }
 
 TEST(Snapshot, LostMessagesAreCountedBySkippedCounters) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   for (const std::uint64_t counter : {5u, 6u, 9u, 10u}) builder.Add(*Forces(counter, 1.0), 1.0);
   EXPECT_EQ(builder.At(1.0, 0).forces->flow.lost, 2u);
   EXPECT_THAT(SnapshotText(builder.At(1.0, 0)), HasSubstr("2 of 6 lost"));
@@ -122,14 +123,14 @@ TEST(Snapshot, LostMessagesAreCountedBySkippedCounters) {
 }
 
 TEST(Snapshot, SilenceIsSaidInsteadOfARate) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   AddForces(builder, 10.0);
   EXPECT_EQ(builder.At(15.0, 0).forces->flow.rate_hz, 0.0);
   EXPECT_THAT(SnapshotText(builder.At(15.0, 0)), HasSubstr("no message for 4.0 s"));
 }
 
 TEST(Snapshot, ProcessesAreInTheOrderOfTheDataWithWhatTheyReport) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   for (const char* name : {"force_estimation", "other", "capture"}) {
     builder.Add(*Report(name, "ok"), 1.0);
   }
@@ -138,36 +139,37 @@ TEST(Snapshot, ProcessesAreInTheOrderOfTheDataWithWhatTheyReport) {
                                                             {"received", "100"},
                                                             {"device", "camera"}}),
               1.0);
-  const SystemSnapshot snapshot = builder.At(1.5, 0);
+  const monitor::SystemSnapshot snapshot = builder.At(1.5, 0);
   std::vector<std::string> names;
-  for (const ProcessState& process : snapshot.processes) names.push_back(process.name);
+  for (const monitor::ProcessState& process : snapshot.processes) names.push_back(process.name);
   EXPECT_THAT(names, testing::ElementsAre("capture", "perception", "force_estimation", "other"));
-  const ProcessState& perception = snapshot.processes[1];
+  const monitor::ProcessState& perception = snapshot.processes[1];
   EXPECT_EQ(perception.waiting_for, "waiting for /a: none");
   EXPECT_THAT(perception.values,
               testing::ElementsAre(std::pair<std::string, std::string>("device", "camera")));
   const std::string text = SnapshotText(snapshot);
   EXPECT_THAT(text, testing::ContainsRegex("perception +stale +29.5 "));
   EXPECT_THAT(text, HasSubstr("\n    the reason\n    waiting for /a: none\n"));
-  const Json json = Json::parse(SnapshotJson(snapshot)).at("processes").at(1);
+  const Json json = Json::parse(monitor::SnapshotJson(snapshot)).at("processes").at(1);
   EXPECT_EQ(json.at("status"), "stale");
   EXPECT_EQ(json.at("refused"), 3);
   EXPECT_EQ(json.at("diagnostics").at("device"), "camera");
 }
 
 TEST(Snapshot, AProcessThatReportsNoMoreIsSilentAndARestartIsCounted) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   builder.Add(*Report("capture", "ok", 50.0), 1.0);
   EXPECT_THAT(SnapshotText(builder.At(3.5, 0)), testing::ContainsRegex("capture +ok"));
   EXPECT_THAT(SnapshotText(builder.At(6.0, 0)), HasSubstr("silent 5 s"));
-  EXPECT_EQ(Json::parse(SnapshotJson(builder.At(6.0, 0))).at("processes").at(0).at("status"),
-            "silent");
+  EXPECT_EQ(
+      Json::parse(monitor::SnapshotJson(builder.At(6.0, 0))).at("processes").at(0).at("status"),
+      "silent");
   builder.Add(*Report("capture", "ok", 1.0), 7.0);
   EXPECT_THAT(SnapshotText(builder.At(7.0, 0)), HasSubstr("restarts seen: 1"));
 }
 
 TEST(Snapshot, ClocksOfHostsAreThoseOfTheTightestMeasurement) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   builder.Add(*Report("perception", "ok"), 1.0);
   builder.Add(*Report("force_estimation", "ok"), 1.0);
   builder.Add(
@@ -180,17 +182,17 @@ TEST(Snapshot, ClocksOfHostsAreThoseOfTheTightestMeasurement) {
                           {"clock_offset_s.camera", "-0.0202"},
                           {"clock_offset_bound_s.camera", "0.0004"}}),
               1.0);
-  const SystemSnapshot snapshot = builder.At(1.1, 0);
+  const monitor::SystemSnapshot snapshot = builder.At(1.1, 0);
   ASSERT_EQ(snapshot.clocks.size(), 1U);
   EXPECT_THAT(SnapshotText(snapshot), HasSubstr("CLOCKS       camera is 20.2 ms behind model, "
                                                 "+- 0.4 ms\n"));
-  const Json clock = Json::parse(SnapshotJson(snapshot))["clocks"][0];
+  const Json clock = Json::parse(monitor::SnapshotJson(snapshot))["clocks"][0];
   EXPECT_EQ(clock["host"], "model");
   EXPECT_EQ(clock["offset_s"], -0.0202);
 }
 
 TEST(Snapshot, DiagnosticsOfOtherProgramsAreListedApart) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   builder.Add(*Diagnosis("motor driver"), 1.0);
   EXPECT_THAT(SnapshotText(builder.At(1.0, 0)),
               testing::ContainsRegex("OTHER DIAGNOSTICS\n  motor driver +error +hot"));
@@ -198,7 +200,7 @@ TEST(Snapshot, DiagnosticsOfOtherProgramsAreListedApart) {
 }
 
 TEST(Snapshot, ModelErrorHasTheMonitorsJudgement) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   dds::Message<idl::palpate_msgs::ModelGap> gap;
   gap->residual_rms_m = 0.00031;
   gap->noise_rms_m = 0.00028;
@@ -212,7 +214,7 @@ TEST(Snapshot, ModelErrorHasTheMonitorsJudgement) {
 }
 
 TEST(Snapshot, EveryFurtherTopicHasItsLine) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   builder.Add(*Report("capture", "ok"), 1.0);
   dds::Message<idl::palpate_msgs::PerceptionReport> perceived;
   dds::SetText(perceived->status, "ok");
@@ -240,7 +242,7 @@ TEST(Snapshot, EveryFurtherTopicHasItsLine) {
   calibration->frames_taken = 2;
   calibration->frames_wanted = 6;
   builder.Add(*calibration);
-  const SystemSnapshot snapshot = builder.At(1.0, 0);
+  const monitor::SystemSnapshot snapshot = builder.At(1.0, 0);
   const std::string text = SnapshotText(snapshot);
   EXPECT_THAT(text, HasSubstr("PERCEPTION   ok; 4012 robot points, 0 object points, 1 contacts"));
   EXPECT_THAT(text, HasSubstr("CAMERA       V-1 (epoch 0)"));
@@ -249,7 +251,7 @@ TEST(Snapshot, EveryFurtherTopicHasItsLine) {
   EXPECT_THAT(text, HasSubstr("MESH STATE   no_contact"));
   EXPECT_THAT(text, HasSubstr("; north 5.0 mm\n"));
   EXPECT_THAT(text, HasSubstr("CALIBRATION  collecting, 2 of 6 frames"));
-  const Json json = Json::parse(SnapshotJson(snapshot));
+  const Json json = Json::parse(monitor::SnapshotJson(snapshot));
   EXPECT_EQ(json.at("cables").at("cables").at(0).at("displacement_m"), 0.005);
   EXPECT_TRUE(json.at("cables").at("cables").at(0).at("tension_N").is_null());
   EXPECT_EQ(json.at("calibration").at("frames_wanted"), 6);
@@ -257,9 +259,9 @@ TEST(Snapshot, EveryFurtherTopicHasItsLine) {
 }
 
 TEST(Snapshot, TextsThatAreNoUtf8StillGiveJson) {
-  SnapshotBuilder builder(0);
+  monitor::SnapshotBuilder builder(0);
   builder.Add(*Report("capture", "\xff\xfe"), 1.0);
-  EXPECT_NO_THROW(Json::parse(SnapshotJson(builder.At(1.0, 0))));
+  EXPECT_NO_THROW(Json::parse(monitor::SnapshotJson(builder.At(1.0, 0))));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(Watch, TheListenerShowsAProcessAndItsForce) {
   SystemListener listener(TestDomain());
   listener.Listen([&] { return listener.HeardAll() && listener.Snapshot().forces; },
                   std::chrono::seconds(10));
-  const SystemSnapshot snapshot = listener.Snapshot();
+  const monitor::SystemSnapshot snapshot = listener.Snapshot();
   ASSERT_EQ(snapshot.processes.size(), 1u);
   EXPECT_EQ(snapshot.processes[0].name, "force_estimation");
   ASSERT_TRUE(snapshot.forces);

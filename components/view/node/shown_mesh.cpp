@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/view/node/shown_mesh.hpp"
+
+#include "components/view/frames/binary_frame.hpp"
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
+#include "libs/dds/message.hpp"
+#include "libs/dds/stamp.hpp"
+
+namespace palpate::view {
+
+Status ShownMesh::Take(const idl::palpate_msgs::Mesh& message, OutMessage* out) {
+  Eigen::Matrix3Xd nodes_m;
+  Eigen::Matrix3Xi triangles;
+  if (Status read = dds::FromMesh(message, &nodes_m, &triangles); !read.ok()) return read;
+  surface_ = MakePageSurface(std::string(dds::Text(message.mesh_hash)), nodes_m, triangles);
+  positions_m_.clear();
+  BinaryFrame frame(kind_, {{"robot", std::string(dds::Text(message.robot))},
+                            {"hash", surface_.hash},
+                            {"stamp_ns", std::to_string(dds::StampNs(message.header.stamp))}});
+  frame.Add("rest_m", surface_.rest_m);
+  frame.Add("triangles", surface_.triangles);
+  *out = BinaryMessage(kind_, frame.Bytes());
+  return Status::Ok();
+}
+
+Status ShownMesh::Take(const idl::palpate_msgs::MeshState& message) {
+  if (surface_.empty()) return dds::Invalid("the mesh of this state has not come yet");
+  if (dds::Text(message.mesh_hash) != surface_.hash) {
+    return dds::Invalid("a state of mesh '" + std::string(dds::Text(message.mesh_hash)) +
+                        "' instead of '" + surface_.hash + "'");
+  }
+  Eigen::Matrix3Xf nodes_m;
+  Status read = dds::FromMeshState(message, surface_.node_count, &nodes_m);
+  if (!read.ok()) return read;
+  positions_m_ = PositionsOf(surface_, nodes_m);
+  stamp_ns_ = dds::StampNs(message.header.stamp);
+  counter_ = message.counter;
+  status_ = dds::Text(message.status);
+  return Status::Ok();
+}
+
+OutMessage ShownMesh::StateMessage(const std::vector<float>& residual_m) const {
+  const std::string kind = kind_ + "_state";
+  BinaryFrame frame(kind, {{"stamp_ns", std::to_string(stamp_ns_)},
+                           {"counter", counter_},
+                           {"status", status_},
+                           {"hash", surface_.hash}});
+  frame.Add("positions_m", positions_m_);
+  if (!residual_m.empty()) frame.Add("residual_m", residual_m);
+  return BinaryMessage(kind, frame.Bytes());
+}
+
+}  // namespace palpate::view
