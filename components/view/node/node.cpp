@@ -91,9 +91,8 @@ void ViewNode::Listen(const ViewPlan& plan) {
   PortSettings page = PortOf(config_.http, config_.http.port, PageRules(config_.http, plan.token));
   page_port_ = server_.Listen(page, page_.get());
   page_->TellCounts();
-  const std::string host = UrlHost(config_.http.address);
-  log_.Write(Severity::kInfo, "page: http://" + host + ":" + std::to_string(page_port_) + "/" +
-                                  (plan.token.empty() ? "" : " (with ?token=...)"));
+  log_.Write(Severity::kInfo,
+             "page: " + page_url() + (plan.token.empty() ? "" : " (with ?token=...)"));
   if (!config_.foxglove.enabled) return;
   PortSettings foxglove = PortOf(config_.http, config_.foxglove.port,
                                  FoxgloveRules(config_.http, config_.foxglove, plan.token));
@@ -106,7 +105,12 @@ void ViewNode::Listen(const ViewPlan& plan) {
                          .schema = foxglove::SceneSchema(),
                          .schema_encoding = "jsonschema"},
                         1);
-  log_.Write(Severity::kInfo, "Foxglove: ws://" + host + ":" + std::to_string(foxglove_port_));
+  log_.Write(Severity::kInfo, "Foxglove: ws://" + UrlHost(config_.http.address) + ":" +
+                                  std::to_string(foxglove_port_));
+}
+
+std::string ViewNode::page_url() const {
+  return "http://" + UrlHost(config_.http.address) + ":" + std::to_string(page_port_) + "/";
 }
 
 void ViewNode::ChooseSource(const ViewPlan& plan) {

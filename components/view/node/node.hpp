@@ -51,6 +51,8 @@ class ViewNode {
   void Stop() { loop_.Stop(); }
 
   int page_port() const { return page_port_; }
+  /// "http://127.0.0.1:8750/"; without the token, if one is asked for.
+  std::string page_url() const;
   /// 0: it is not served.
   int foxglove_port() const { return foxglove_port_; }
 

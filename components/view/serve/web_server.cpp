@@ -102,6 +102,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
 
   void Accept(const Request& request, const std::string& subprotocol) {
     auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeouts.handshake_timeout = port_->settings.header_time;  // of the closing, too
     timeouts.idle_timeout = port_->settings.idle_time;
     stream_.set_option(timeouts);
     stream_.set_option(websocket::stream_base::decorator([subprotocol](auto& response) {

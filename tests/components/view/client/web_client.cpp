@@ -140,8 +140,9 @@ bool WebClient::SendFrame(int opcode, std::string_view payload) {
   if (payload.size() < 126) {
     bytes += static_cast<char>(0x80 | payload.size());
   } else {
-    bytes += static_cast<char>(0x80 | 127);
-    for (int shift = 56; shift >= 0; shift -= 8) {
+    const bool is_short = payload.size() < 65536;
+    bytes += static_cast<char>(0x80 | (is_short ? 126 : 127));
+    for (int shift = is_short ? 8 : 56; shift >= 0; shift -= 8) {
       bytes += static_cast<char>(payload.size() >> shift & 0xFF);
     }
   }

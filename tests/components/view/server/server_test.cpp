@@ -7,8 +7,8 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <future>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -79,14 +79,9 @@ class Server : public testing::Test {
   bool AwaitOpen(int count) {
     const auto end = std::chrono::steady_clock::now() + 10s;
     while (echo_.open != count && std::chrono::steady_clock::now() < end) {
-      std::mutex mutex;
-      std::unique_lock lock(mutex);
-      std::condition_variable done;
-      server_->Post([&] {
-        const std::lock_guard inner(mutex);
-        done.notify_one();
-      });
-      done.wait_for(lock, 10ms);
+      auto turn = std::make_shared<std::promise<void>>();
+      server_->Post([turn] { turn->set_value(); });
+      turn->get_future().wait();
     }
     return echo_.open == count;
   }
@@ -133,18 +128,19 @@ TEST_F(Server, SendsBackMessagesOfEverySize) {
 
 TEST_F(Server, ClosesWithTheReasonAfterWhatIsQueued) {
   Start();
-  WebClient client(port_);
-  client.Upgrade("/live");
-  client.SendText("last");
-  client.SendText("close");
-  EXPECT_EQ(client.ReadFrame().value().payload, "last");
-  const auto close = client.ReadFrame();
+  auto client = std::make_unique<WebClient>(port_);
+  client->Upgrade("/live");
+  client->SendText("last");
+  client->SendText("close");
+  EXPECT_EQ(client->ReadFrame().value().payload, "last");
+  const auto close = client->ReadFrame();
   ASSERT_TRUE(close && close->opcode == 8);
   EXPECT_EQ(close->payload,
             "\x03\xf0"
             "asked");
-  client.SendFrame(8, close->payload);
-  EXPECT_TRUE(client.AwaitEnd());
+  client->SendFrame(8, close->payload);
+  EXPECT_TRUE(client->AwaitEnd());
+  client.reset();
   EXPECT_TRUE(AwaitOpen(0));
 }
 
