@@ -40,6 +40,7 @@ TEST(AccessRights, AComponentWritesItsOwnTopicsAlone) {
 TEST(AccessRights, AnObserverWritesNothingAndAnOperatorGivesCommands) {
   EXPECT_THAT(Of("observer").write, ElementsAre("ros_discovery_info"));
   EXPECT_THAT(Of("observer").read, Contains("rt/*"));
+  EXPECT_THAT(Of("view").read, Contains("rt/*"));
   EXPECT_THAT(Of("operator").write, ElementsAre("ros_discovery_info", "rt/calibration/request",
                                                 "rt/experiment/load", "rt/experiment/phase"));
 }

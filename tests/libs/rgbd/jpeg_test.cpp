@@ -5,9 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <string>
 
-#include "tests/libs/rgbd/encode_jpeg.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::rgbd {
@@ -30,7 +30,7 @@ ColorImage Plain(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
 }
 
 TEST(Jpeg, ColoursKeepTheirOrder) {
-  const ColorImage image = DecodeJpeg(EncodeJpeg(Plain(200, 100, 50), 3), "name");
+  const ColorImage image = DecodeJpeg(EncodeJpeg(Plain(200, 100, 50), 100), "name");
   ASSERT_EQ(image.width_px, 16);
   ASSERT_EQ(image.height_px, 8);
   EXPECT_NEAR(image.Pixel(7, 3)[0], 200, 3);
@@ -39,12 +39,28 @@ TEST(Jpeg, ColoursKeepTheirOrder) {
 }
 
 TEST(Jpeg, GreyBecomesRgb) {
-  const ColorImage image = DecodeJpeg(EncodeJpeg(Plain(120, 0, 0), 1), "name");
+  const ColorImage image = DecodeJpeg(EncodeJpeg(GreyImage(16, 8, 120), 100), "name");
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.Pixel(0, 0)[c], 120, 2);
 }
 
+TEST(Jpeg, LowerQualityIsSmaller) {
+  ColorImage noise(64, 64);
+  unsigned state = 1;
+  for (std::uint8_t& value : noise.values) {
+    state = state * 1664525U + 1013904223U;
+    value = static_cast<std::uint8_t>(state >> 24);
+  }
+  EXPECT_LT(EncodeJpeg(noise, 30).size(), EncodeJpeg(noise, 90).size());
+  EXPECT_EQ(DecodeJpeg(EncodeJpeg(noise, 30), "name").height_px, 64);
+}
+
+TEST(Jpeg, NoneIsMadeOfNoPixels) {
+  EXPECT_THAT(MessageOf([] { EncodeJpeg(ColorImage(), 75); }), HasSubstr("0 x 0"));
+  EXPECT_THAT(MessageOf([] { EncodeJpeg(GreyImage(5, 0), 75); }), HasSubstr("5 x 0"));
+}
+
 TEST(Jpeg, WhatIsNoWholeJpegIsRefusedByName) {
-  const std::string whole = EncodeJpeg(Plain(200, 100, 50), 3);
+  const std::string whole = EncodeJpeg(Plain(200, 100, 50), 100);
   EXPECT_THAT(MessageOf([] { DecodeJpeg("PNG", "name"); }), HasSubstr("name: is no JPEG image"));
   for (const std::size_t size : {std::size_t{4}, whole.size() / 2, whole.size() - 20}) {
     EXPECT_THAT(MessageOf([&] { DecodeJpeg(whole.substr(0, size), "name"); }),

@@ -15,9 +15,9 @@
 #include "libs/experiment/experiment.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
 #include "libs/recording/compression.hpp"
+#include "libs/rgbd/jpeg.hpp"
 #include "libs/rgbd/png.hpp"
 #include "tests/components/palpate/recordings/topic_recording.hpp"
-#include "tests/libs/rgbd/encode_jpeg.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::command {
@@ -190,7 +190,7 @@ TEST_F(RecordedFormats, PackedColourGoesWithDepth) {
 }
 
 TEST_F(RecordedFormats, JpegColourIsRedGreenBlue) {
-  AddPackedColor("rgb8; jpeg compressed bgr8", rgbd::EncodeJpeg(Orange(), 3));
+  AddPackedColor("rgb8; jpeg compressed bgr8", rgbd::EncodeJpeg(Orange(), 100));
   Make();
   const auto values = rgbd::ReadColorPng(color_file_).values;
   ASSERT_EQ(values.size(), Orange().values.size());
@@ -198,7 +198,7 @@ TEST_F(RecordedFormats, JpegColourIsRedGreenBlue) {
 }
 
 TEST_F(RecordedFormats, ADamagedJpegIsLeftOutAndTold) {
-  AddPackedColor("rgb8; jpeg compressed bgr8", rgbd::EncodeJpeg(Orange(), 3).substr(0, 40));
+  AddPackedColor("rgb8; jpeg compressed bgr8", rgbd::EncodeJpeg(Orange(), 100).substr(0, 40));
   Make();
   EXPECT_FALSE(std::filesystem::exists(color_file_));
   EXPECT_THAT(notes_, HasSubstr("left out: 1 message(s) of /camera/color/image_raw/compressed: "

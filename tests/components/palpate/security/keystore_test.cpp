@@ -81,7 +81,7 @@ class KeystoreTest : public testing::Test {
 TEST_F(KeystoreTest, InitWithoutNamesEnrollsAllComponentsAndCommands) {
   const Answer init = RunVerb({"init", keystore()});
   EXPECT_EQ(init.code, 0);
-  EXPECT_THAT(init.text, HasSubstr("two authorities and 11 identities"));
+  EXPECT_THAT(init.text, HasSubstr("two authorities and 12 identities"));
   const Answer check = RunVerb({"check", keystore(), "--json"});
   EXPECT_EQ(check.code, 0) << check.text;
   const auto json = nlohmann::json::parse(check.text);
@@ -89,7 +89,7 @@ TEST_F(KeystoreTest, InitWithoutNamesEnrollsAllComponentsAndCommands) {
   for (const auto& identity : json.at("identities")) names.push_back(identity.at("name"));
   EXPECT_THAT(names, ElementsAre("calibration", "capture", "force_estimation", "motion_capture",
                                  "observer", "operator", "perception", "player", "recorder",
-                                 "virtual_camera", "virtual_robot"));
+                                 "view", "virtual_camera", "virtual_robot"));
 }
 
 TEST_F(KeystoreTest, PrivateKeysAreTheOwnersAlone) {
