@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
   out << "// Made by cmake/embed_files.cpp.\n#include <array>\n#include <span>\n"
          "#include <string_view>\n\n"
          "#include \"components/view/serve/page_files.hpp\"\n\nnamespace {\n";
-  for (std::size_t i = 0; i < paths.size(); ++i) WriteArray(Gzip(ReadWhole(folder / paths[i])), i, out);
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    WriteArray(Gzip(ReadWhole(folder / paths[i])), i, out);
   out << "}  // namespace\n\nnamespace palpate::view {\n"
          "std::span<const PageFile> BuiltInPageFiles();\n"
          "std::span<const PageFile> BuiltInPageFiles() {\n"

@@ -26,8 +26,8 @@ std::vector<std::string> OwnRolesOf(const TopicTable& table);
 
 /// What `role` writes and reads by the columns `writers` and `readers` of the table, under the
 /// names that `names` resolves. A recorder, the view, an observer and an operator read all
-/// topics; a player writes all that are recorded. Throws InputError, with "did you mean", for a role
-/// that the table does not know.
+/// topics; a player writes all that are recorded. Throws InputError, with "did you mean", for a
+/// role that the table does not know.
 security::AccessRights RightsOf(const TopicTable& table, const std::string& role,
                                 const TopicNames& names);
 

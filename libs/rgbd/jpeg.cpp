@@ -117,8 +117,8 @@ bool WriteJpeg(JpegEncoder* encoder, const std::uint8_t* pixels, std::size_t row
 
 template <int kChannels>
 std::string Encode(const Image<std::uint8_t, kChannels>& image, J_COLOR_SPACE colors, int quality) {
-  const auto pixels = static_cast<std::uint64_t>(image.width_px) *
-                      static_cast<std::uint64_t>(image.height_px);
+  const auto pixels =
+      static_cast<std::uint64_t>(image.width_px) * static_cast<std::uint64_t>(image.height_px);
   if (pixels == 0 || pixels > kLargestJpeg_px) {
     throw RunError("no JPEG can be made of " + std::to_string(image.width_px) + " x " +
                    std::to_string(image.height_px) + " pixels");

@@ -39,7 +39,8 @@ const std::uint8_t* Row(const Image& message, int v) {
 }
 
 Status CopyRaw(const Image& message, rgbd::DepthImage* image) {
-  if (Status status = dds::CheckImageSize(message, sizeof(std::uint16_t)); !status.ok()) return status;
+  if (Status status = dds::CheckImageSize(message, sizeof(std::uint16_t)); !status.ok())
+    return status;
   *image = rgbd::DepthImage(static_cast<int>(message.width), static_cast<int>(message.height));
   for (int v = 0; v < image->height_px; ++v) {
     std::memcpy(image->Pixel(0, v), Row(message, v), sizeof(std::uint16_t) * message.width);
@@ -132,7 +133,8 @@ Status FromDriverColor(const Image& message, rgbd::ColorImage* image) {
   if (layout == nullptr) {
     return UnknownEncoding(message, "rgb8, bgr8, rgba8, bgra8 or mono8");
   }
-  if (Status status = dds::CheckImageSize(message, layout->pixel_bytes); !status.ok()) return status;
+  if (Status status = dds::CheckImageSize(message, layout->pixel_bytes); !status.ok())
+    return status;
   *image = rgbd::ColorImage(static_cast<int>(message.width), static_cast<int>(message.height));
   for (int v = 0; v < image->height_px; ++v) {
     const std::uint8_t* from = Row(message, v);
@@ -152,7 +154,8 @@ Status FromDriverInfo(const CameraInfo& message, bool rectified, rgbd::CameraMod
                               message.p[6], message.p[8], message.p[9], message.p[10]};
     std::copy_n(from_p, 9, pinhole.k);
   }
-  if (Status status = dds::FromCameraInfo(pinhole, camera); !status.ok() || rectified) return status;
+  if (Status status = dds::FromCameraInfo(pinhole, camera); !status.ok() || rectified)
+    return status;
   const auto distortion = rgbd::DistortionOf(dds::Text(message.distortion_model),
                                              {message.d._buffer, message.d._length});
   if (!distortion) {

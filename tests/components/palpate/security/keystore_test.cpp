@@ -88,8 +88,8 @@ TEST_F(KeystoreTest, InitWithoutNamesEnrollsAllComponentsAndCommands) {
   std::vector<std::string> names;
   for (const auto& identity : json.at("identities")) names.push_back(identity.at("name"));
   EXPECT_THAT(names, ElementsAre("calibration", "capture", "force_estimation", "motion_capture",
-                                 "observer", "operator", "perception", "player", "recorder",
-                                 "view", "virtual_camera", "virtual_robot"));
+                                 "observer", "operator", "perception", "player", "recorder", "view",
+                                 "virtual_camera", "virtual_robot"));
 }
 
 TEST_F(KeystoreTest, PrivateKeysAreTheOwnersAlone) {

@@ -159,8 +159,8 @@ std::string GetRequest(const std::string& path, const std::string& headers,
   return "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + headers + "\r\n";
 }
 
-std::string Get(int port, const std::string& path, const std::string& headers,
-                const std::string& host) {
+std::string Fetch(int port, const std::string& path, const std::string& headers,
+                  const std::string& host) {
   WebClient client(port);
   client.Send(GetRequest(path, headers, host));
   return client.ReadResponse();

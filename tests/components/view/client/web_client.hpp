@@ -60,7 +60,7 @@ std::string GetRequest(const std::string& path, const std::string& headers = {},
                        const std::string& host = "localhost");
 
 /// One request on a connection of its own: the whole response.
-std::string Get(int port, const std::string& path, const std::string& headers = {},
-                const std::string& host = "localhost");
+std::string Fetch(int port, const std::string& path, const std::string& headers = {},
+                  const std::string& host = "localhost");
 
 }  // namespace palpate::view

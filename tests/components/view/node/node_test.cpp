@@ -190,7 +190,7 @@ TEST(ViewNode, TellsTheHealthOfTheProcesses) {
     return !process.is_null();
   }));
   EXPECT_EQ(process.value("reason", ""), "no frame");
-  const std::string snapshot = Get(view.page_port(), "/snapshot.json");
+  const std::string snapshot = Fetch(view.page_port(), "/snapshot.json");
   EXPECT_THAT(snapshot, HasSubstr("\"other_diagnostics\""));
 }
 
@@ -259,11 +259,11 @@ TEST(ViewNode, IsFoundAgainAfterARestart) {
 
 TEST(ViewNode, ServesThePage) {
   RunningView view;
-  EXPECT_THAT(Get(view.page_port(), "/", "Accept-Encoding: gzip\r\n"),
+  EXPECT_THAT(Fetch(view.page_port(), "/", "Accept-Encoding: gzip\r\n"),
               testing::AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("text/html"),
                              HasSubstr("Content-Encoding: gzip")));
-  EXPECT_THAT(Get(view.page_port(), "/"), StartsWith("HTTP/1.1 406"));
-  EXPECT_THAT(Get(view.page_port(), "/../config.hpp"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(Fetch(view.page_port(), "/"), StartsWith("HTTP/1.1 406"));
+  EXPECT_THAT(Fetch(view.page_port(), "/../config.hpp"), StartsWith("HTTP/1.1 404"));
 }
 
 class Foxglove : public testing::Test {

@@ -87,7 +87,7 @@ class Server : public testing::Test {
   }
   /// The server still works for those who keep to the rules.
   void ExpectAlive() {
-    EXPECT_THAT(view::Get(port_, "/file"), HasSubstr("content"));
+    EXPECT_THAT(view::Fetch(port_, "/file"), HasSubstr("content"));
     WebClient client(port_);
     EXPECT_THAT(client.Upgrade("/live"), StartsWith("HTTP/1.1 101"));
     EXPECT_EQ(EchoOf(&client, "alive"), "alive");
@@ -110,8 +110,8 @@ TEST_F(Server, AnswersRequestsOfOneConnection) {
                     HasSubstr("nosniff"), HasSubstr("\r\n\r\ncontent")));
   client.Send(GetRequest("/file", "If-None-Match: \"tag\"\r\n"));
   EXPECT_THAT(client.ReadResponse(), StartsWith("HTTP/1.1 304"));
-  EXPECT_THAT(view::Get(port_, "/file?query=1"), StartsWith("HTTP/1.1 200"));
-  EXPECT_THAT(view::Get(port_, "/other"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(view::Fetch(port_, "/file?query=1"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(view::Fetch(port_, "/other"), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(Say("HEAD /file HTTP/1.1\r\nHost: localhost\r\n\r\n"),
               AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("Content-Length: 7"),
                     Not(HasSubstr("content\n"))));
@@ -163,8 +163,8 @@ TEST_F(Server, RefusesWhatIsNoRequestForIt) {
 
 TEST_F(Server, RefusesForeignHostsAndOrigins) {
   Start();
-  EXPECT_THAT(view::Get(port_, "/file", "", "evil.example"), StartsWith("HTTP/1.1 421"));
-  EXPECT_THAT(view::Get(port_, "/file", "Origin: http://evil.example\r\n"),
+  EXPECT_THAT(view::Fetch(port_, "/file", "", "evil.example"), StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(view::Fetch(port_, "/file", "Origin: http://evil.example\r\n"),
               StartsWith("HTTP/1.1 403"));
   WebClient client(port_);
   EXPECT_THAT(client.Upgrade("/live", "Origin: http://evil.example\r\n"),
@@ -177,12 +177,12 @@ TEST_F(Server, MovesTheTokenFromTheAddressToACookie) {
   settings.rules.token = "0123456789abcdef";
   settings.rules.cookie_name = "name";
   Start(settings);
-  EXPECT_THAT(view::Get(port_, "/file"), StartsWith("HTTP/1.1 401"));
-  EXPECT_THAT(view::Get(port_, "/?token=0123456789abcdef"),
+  EXPECT_THAT(view::Fetch(port_, "/file"), StartsWith("HTTP/1.1 401"));
+  EXPECT_THAT(view::Fetch(port_, "/?token=0123456789abcdef"),
               AllOf(StartsWith("HTTP/1.1 303"), HasSubstr("Location: /\r\n"),
                     HasSubstr("Set-Cookie: name=0123456789abcdef; Path=/; HttpOnly; "
                               "SameSite=Strict")));
-  EXPECT_THAT(view::Get(port_, "/file", "Cookie: name=0123456789abcdef\r\n"),
+  EXPECT_THAT(view::Fetch(port_, "/file", "Cookie: name=0123456789abcdef\r\n"),
               StartsWith("HTTP/1.1 200"));
   WebClient client(port_);
   EXPECT_THAT(client.Upgrade("/live"), StartsWith("HTTP/1.1 401"));
@@ -192,7 +192,7 @@ TEST_F(Server, LeadsOutOfItsFilesByNoPath) {
   Start();
   for (const char* path : {"/../file", "/%2e%2e/etc/passwd", "//etc/passwd", "/file/../../etc",
                            "/..%5c..%5cfile", "/file%00", "file", "*", "http://localhost/file"}) {
-    EXPECT_THAT(view::Get(port_, path), Not(StartsWith("HTTP/1.1 200"))) << path;
+    EXPECT_THAT(view::Fetch(port_, path), Not(StartsWith("HTTP/1.1 200"))) << path;
   }
   ExpectAlive();
 }
