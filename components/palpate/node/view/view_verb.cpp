@@ -32,7 +32,8 @@ void CheckSource(const std::filesystem::path& source) {
   }
   if (std::filesystem::exists(source / "experiment.yaml")) {
     throw InputError("SOURCE: " + source.string() +
-                     " is an experiment folder, which holds no messages; `palpate demo --data " +
+                     " is an experiment folder, which holds no messages; `palpate demo --robot "
+                     "ROBOT --data " +
                      source.string() + "` estimates and shows it");
   }
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: node read_forces.mjs PORT
 // Subscribes to /forces by Foxglove's own client, and prints what it was told as JSON.
-import { FoxgloveClient } from "@foxglove/ws-protocol";
+import protocol from "@foxglove/ws-protocol";
 import WebSocket from "ws";
 
+const { FoxgloveClient } = protocol;
 const port = process.argv[2];
 const client = new FoxgloveClient({
   ws: new WebSocket(`ws://127.0.0.1:${port}`, [FoxgloveClient.SUPPORTED_SUBPROTOCOL]),
