@@ -57,7 +57,7 @@ std::string ForcesText(const monitor::SystemSnapshot& snapshot) {
 
 std::string ModelErrorText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.model_error) return {};
-  const ModelErrorState& state = *snapshot.model_error;
+  const monitor::ModelErrorState& state = *snapshot.model_error;
   return fmt::format("MODEL ERROR  {}residual {:.2f} mm, noise {:.2f} mm, {} samples; {}\n",
                      state.judgement.empty() ? "" : state.judgement + "; ",
                      1e3 * state.residual_rms_m, 1e3 * state.noise_rms_m, state.samples,
@@ -66,7 +66,7 @@ std::string ModelErrorText(const monitor::SystemSnapshot& snapshot) {
 
 std::string PerceptionText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.perception) return {};
-  const PerceptionState& state = *snapshot.perception;
+  const monitor::PerceptionState& state = *snapshot.perception;
   std::string text =
       fmt::format("PERCEPTION   {}{}; {} robot points, {} object points, {} contacts; {}; {}\n",
                   state.status, InBrackets(state.reason), state.robot_points, state.object_points,
@@ -77,7 +77,7 @@ std::string PerceptionText(const monitor::SystemSnapshot& snapshot) {
 
 std::string CameraText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.camera) return {};
-  const CameraState& state = *snapshot.camera;
+  const monitor::CameraState& state = *snapshot.camera;
   return fmt::format(
       "CAMERA       {} (epoch {}); {}; {:.0f} % of the pixels have depth; {} frames failed, {} "
       "dropped; {} packets lost\n",
@@ -105,7 +105,7 @@ std::string MeshText(const monitor::SystemSnapshot& snapshot) {
 
 std::string CalibrationText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.calibration) return {};
-  const CalibrationState& state = *snapshot.calibration;
+  const monitor::CalibrationState& state = *snapshot.calibration;
   std::string text = "CALIBRATION  " + state.state;
   if (state.frames_wanted > 0) {
     text += fmt::format(", {} of {} frames", state.frames_taken, state.frames_wanted);
@@ -150,7 +150,7 @@ std::string ClocksText(const monitor::SystemSnapshot& snapshot) {
 std::string OthersText(const monitor::SystemSnapshot& snapshot) {
   if (snapshot.others.empty()) return {};
   std::string text = "OTHER DIAGNOSTICS\n";
-  for (const OtherDiagnosis& other : snapshot.others) {
+  for (const monitor::OtherDiagnosis& other : snapshot.others) {
     text += fmt::format("  {:<34} {:<8} {} ({:.0f} s ago)\n", other.name, other.level,
                         other.message, other.silence_s);
   }
