@@ -13,6 +13,7 @@
 #include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
+#include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::dds {
 
@@ -30,16 +31,15 @@ bool AllFinite(const double* numbers, std::size_t count) {
 }
 
 Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
-  if (message.d._length == 0) return Status::Ok();
   const std::string_view model = Text(message.distortion_model);
-  if (model != "plumb_bob" || message.d._length != camera->distortion.size()) {
+  const auto distortion = rgbd::DistortionOf(model, {message.d._buffer, message.d._length});
+  if (!distortion) {
     return Invalid("distortion model '" + std::string(model) + "' with " +
-                   std::to_string(message.d._length) + " numbers instead of 'plumb_bob' with 5");
+                   std::to_string(message.d._length) +
+                   " numbers instead of 'plumb_bob' with 5 finite ones or 'rational_polynomial' "
+                   "with 8");
   }
-  if (!AllFinite(message.d._buffer, message.d._length)) {
-    return Invalid("a distortion that is not finite");
-  }
-  std::copy_n(message.d._buffer, camera->distortion.size(), camera->distortion.begin());
+  camera->distortion = *distortion;
   return Status::Ok();
 }
 

@@ -48,7 +48,7 @@ Message<idl::sensor_msgs::CameraInfo> ToCameraInfo(const rgbd::CameraModel& came
                                                    std::string_view frame_id);
 
 /// One lens; where K is all zeros the focal lengths are 0: not calibrated. kInvalidInput for
-/// numbers that are not finite, an image without pixels, another distortion model than plumb_bob.
+/// numbers that are not finite, an image without pixels, a lens that DistortionOf does not take.
 Status FromCameraInfo(const idl::sensor_msgs::CameraInfo& message, rgbd::CameraModel* camera);
 
 /// kInvalidInput for an image without pixels, rows or data that are too short.

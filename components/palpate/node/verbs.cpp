@@ -36,8 +36,7 @@ int RunCommand(const std::vector<std::string>& words) {
       DemoVerb(),     LaunchVerb(), SolveVerb(),   SimulateVerb(), CalibrateVerb(), EstimateVerb(),
       DiagnoseVerb(), ImportVerb(), CaptureVerb(), WatchVerb(),    HealthVerb(),    DoctorVerb(),
       TopicVerb(),    NodeVerb(),   ParamVerb(),   FailVerb(),     RecordVerb(),    PlayVerb(),
-      TopicVerb(),    NodeVerb(),   ParamVerb(),   RecordVerb(),   PlayVerb(),      ViewVerb(),
-      RepairVerb(),   ExportVerb(), InfoVerb(),    SecurityVerb(), ReferenceVerb(),
+      ViewVerb(),     RepairVerb(), ExportVerb(),  InfoVerb(),     SecurityVerb(),  ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);

@@ -3,7 +3,6 @@
 
 #include "components/perception/node/convert.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -51,23 +50,6 @@ Status CopyImage(const Image& message, std::string_view encoding, Target* image)
   for (std::size_t v = 0; v < message.height; ++v) {
     std::memcpy(target + v * row_bytes, message.data._buffer + v * message.step, row_bytes);
   }
-  return Status::Ok();
-}
-
-bool AllFinite(const double* numbers, std::size_t count) {
-  return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
-}
-
-Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
-  const std::string_view model = dds::Text(message.distortion_model);
-  const auto distortion = rgbd::DistortionOf(model, {message.d._buffer, message.d._length});
-  if (!distortion) {
-    return Invalid("distortion model '" + std::string(model) + "' with " +
-                   std::to_string(message.d._length) +
-                   " numbers instead of 'plumb_bob' with 5 finite ones or 'rational_polynomial' "
-                   "with 8");
-  }
-  camera->distortion = *distortion;
   return Status::Ok();
 }
 

@@ -21,14 +21,6 @@ Status FromDepthImage(const idl::sensor_msgs::Image& message, rgbd::DepthImage* 
 /// The same of /camera/color/image_raw (rgb8), which may be in either camera's frame.
 Status FromColorImage(const idl::sensor_msgs::Image& message, rgbd::ColorImage* image);
 
-/// kInvalidInput for an image without pixels, rows or data that are too short.
-Status CheckImageSize(const idl::sensor_msgs::Image& message, std::uint32_t pixel_bytes);
-
-/// One lens; where K is all zeros the focal lengths are 0: not calibrated. kInvalidInput for
-/// numbers that are not finite, an image without pixels, a lens that DistortionOf does not
-/// take.
-Status FromCameraInfo(const idl::sensor_msgs::CameraInfo& message, rgbd::CameraModel* camera);
-
 /// What holds for an epoch of a camera.
 struct CameraSetup {
   std::int64_t stamp_ns = 0;
