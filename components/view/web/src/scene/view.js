@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+import { Sphere, Vector3 } from 'three';
+import { byId, setText } from '../ui/dom.js';
+import { onTheme } from '../ui/theme.js';
+import { Cables } from './cables.js';
+import { Cloud } from './cloud.js';
+import { ColorBar } from './colorbar.js';
+import { Coloring, MODES } from './coloring.js';
+import { Floor } from './floor.js';
+import { ForceArrows } from './forces.js';
+import { Ghost } from './ghost.js';
+import { Labels } from './labels.js';
+import { showLegend } from './legend.js';
+import { nodeAt, onClick } from './pick.js';
+import { Probe } from './probe.js';
+import { Robot } from './robot.js';
+import { UpperEnd } from './scale.js';
+import { Stage } from './stage.js';
+
+const OBSTACLES = ['#scene-tools', '#colorbar', '#legend', '#probe', '#scene-note'];
+
+/** The 3-D view: takes messages, keeps what they hold, and draws it. */
+export class SceneView {
+  #hash = null;
+  #truth_hash = null;
+  #radius = 0.15;
+  #shown = { cloud: true, ghost: true, cables: true };
+  #tensions = new UpperEnd(0.1);
+  #has = { cloud: false, objects: false, cables: false, tension: false };
+
+  constructor(feed, send, contact_colors) {
+    this.stage = new Stage(byId('view'));
+    this.robot = new Robot();
+    this.ghost = new Ghost();
+    this.clouds = { robot: new Cloud('cloud', 1.3), object: new Cloud('object', 2) };
+    this.cables = new Cables();
+    this.floor = new Floor();
+    this.arrows = new ForceArrows(contact_colors);
+    this.coloring = new Coloring();
+    this.colorbar = new ColorBar();
+    this.probe = new Probe(send, () => this.stage.draw());
+    this.labels = new Labels(byId('labels'), this.stage, () =>
+      OBSTACLES.map((name) => document.querySelector(name).getBoundingClientRect()));
+    this.stage.scene.add(this.floor.group, this.robot.group, this.ghost.group,
+      this.clouds.robot.points, this.clouds.object.points, this.cables.group,
+      this.arrows.estimated.group, this.arrows.truth.group, this.probe.dot);
+    this.stage.onDrawn = () => this.labels.place();
+    onClick(byId('view'), (at) => this.probeAt(at));
+    onTheme(() => this.#showForces());
+    this.#listen(feed);
+  }
+
+  #listen(feed) {
+    feed.on('mesh', (message) => this.#takeMesh(message));
+    feed.on('mesh_state', (message) => this.#takeShape(message));
+    feed.on('truth_mesh', (message) => {
+      this.#truth_hash = message.hash;
+      this.ghost.setMesh(message.arrays);
+    });
+    feed.on('truth_mesh_state', (message) => {
+      if (!this.ghost.surface || message.hash !== this.#truth_hash) return;
+      this.ghost.surface.move(message.arrays.positions_m);
+      this.stage.draw();
+    });
+    for (const [kind, name] of [['robot_cloud', 'cloud'], ['object_cloud', 'objects']]) {
+      feed.on(kind, ({ arrays }) => {
+        this.clouds[kind.split('_')[0]].set(arrays.points_m);
+        this.#has[name] = arrays.points_m.length > 0;
+        this.stage.draw();
+      });
+    }
+    feed.on('forces', ({ forces }) => {
+      this.arrows.setEstimated(forces);
+      this.#showForces();
+    });
+    feed.on('truth_forces', ({ forces }) => this.arrows.setTruth(forces));
+    feed.on('cable_paths', ({ arrays }) => {
+      this.cables.setPaths(arrays);
+      this.#has.cables = Object.keys(arrays).length > 0;
+    });
+    feed.on('cables', ({ cables }) => this.#takeCables(cables));
+    feed.on('probe', (answer) => this.probe.take(answer));
+  }
+
+  setMode(mode) {
+    if (!this.coloring.has(mode)) return;
+    this.coloring.mode = mode;
+    this.#paintRobot();
+  }
+
+  /** @param {'cloud' | 'ghost' | 'cables'} part */
+  toggle(part) {
+    this.#shown[part] = !this.#shown[part];
+    this.clouds.robot.points.visible = this.clouds.object.points.visible = this.#shown.cloud;
+    this.ghost.group.visible = this.#shown.ghost;
+    this.cables.group.visible = this.#shown.cables;
+    this.#showForces();
+    return this.#shown[part];
+  }
+
+  /** @param {{x: number, y: number}} at of the canvas, -1 to 1 */
+  probeAt(at) {
+    this.probe.choose(nodeAt(this.stage, this.robot, at), this.robot.surface, this.#radius);
+    this.stage.draw();
+  }
+
+  closeProbe() {
+    this.probe.close();
+    this.stage.draw();
+  }
+
+  #takeMesh({ hash, arrays }) {
+    const is_new = hash !== this.#hash;
+    this.#hash = hash;
+    this.robot.setMesh(arrays);
+    this.coloring.set('displacement', this.robot.surface.displacements());
+    this.coloring.set('residual', null);
+    this.coloring.set('stiffness', arrays.stiffness_Pa ?? null);
+    if (is_new) this.#fit(arrays.rest_m);
+    byId('scene-empty').hidden = true;
+    this.#paintRobot();
+  }
+
+  #fit(rest_m) {
+    const points = Array.from({ length: rest_m.length / 3 },
+      (_, i) => new Vector3().fromArray(rest_m, 3 * i));
+    const { center, radius } = new Sphere().setFromPoints(points);
+    const lowest = points.reduce((low, { z }) => Math.min(low, z), Infinity);
+    this.#radius = radius;
+    this.floor.set(center, lowest - 0.002 * radius, radius);
+    this.stage.fit(center, radius);
+  }
+
+  #takeShape({ hash, status, arrays }) {
+    if (hash !== this.#hash) return;  // its mesh is on the way
+    this.robot.surface.move(arrays.positions_m);
+    this.coloring.set('displacement', this.robot.surface.displacements());
+    this.coloring.set('residual', arrays.residual_m ?? null);
+    const usable = status === 'ok';
+    byId('scene-note').hidden = usable;
+    setText(byId('scene-note'), usable ? '' : `Shape not usable: ${status.replaceAll('_', ' ')}`);
+    this.probe.follow(this.robot.surface);
+    this.#paintRobot();
+  }
+
+  #paintRobot() {
+    for (const mode of Object.keys(MODES)) {
+      const button = byId(`color-${mode}`);
+      const has = this.coloring.has(mode);
+      button.setAttribute('aria-disabled', String(!has));
+      button.title = has ? '' : MODES[mode].absent;
+    }
+    if (!this.coloring.has(this.coloring.mode)) this.coloring.mode = 'displacement';
+    for (const mode of Object.keys(MODES)) {
+      byId(`color-${mode}`).setAttribute('aria-checked', String(mode === this.coloring.mode));
+    }
+    const range = this.coloring.current(performance.now());
+    if (!range) return;
+    this.robot.paint(range.values, range.low, range.high);
+    this.colorbar.show(this.coloring.mode, range);
+    this.unseen = range.known < range.values.length;
+    this.stage.draw();
+  }
+
+  #takeCables(cables) {
+    const known = cables.filter(({ tension_N }) => Number.isFinite(tension_N));
+    const tensions = new Map(known.map(({ name, tension_N }) => [name, tension_N]));
+    this.#tensions.update(Math.max(0, ...tensions.values()), performance.now());
+    this.#has.tension = tensions.size > 0;
+    this.cables.setTensions(tensions, this.#tensions.value);
+    this.stage.draw();
+  }
+
+  #showForces() {
+    this.labels.set(this.arrows.show(this.#radius, performance.now()));
+    const ghost = this.#shown.ghost && this.ghost.surface !== null;
+    showLegend({
+      forces: this.robot.surface !== null,
+      truth: this.ghost.surface !== null,
+      ghost,
+      cloud: this.#has.cloud && this.#shown.cloud,
+      objects: this.#has.objects && this.#shown.cloud,
+      cables: this.#has.cables && this.#shown.cables,
+      highest_tension_N: this.#has.tension ? this.#tensions.value : 0,
+      grid_m: this.floor.spacing_m,
+      metres_per_newton: this.arrows.metresPerNewton(this.#radius),
+      unseen: Boolean(this.unseen),
+    });
+    this.stage.draw();
+  }
+}
