@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two SPDX lines head every source file, after a #! or <?xml line at most."""
+"""Two SPDX lines head every source file, after a #!, <?xml or <!doctype line at most."""
 
 import re
 import sys
@@ -13,10 +13,10 @@ LINES = ("SPDX-FileCopyrightText: 2026 The palpate authors",
          "SPDX-License-Identifier: Apache-2.0")
 SUFFIXES = source_tree.CPP_SUFFIXES | {
     ".c", ".h", ".in", ".py", ".sh", ".cmake", ".yaml", ".yml", ".idl", ".msg", ".xml", ".geo",
-    ".cff"}
+    ".cff", ".js", ".mjs", ".css", ".html"}
 NAMES = {"CMakeLists.txt", "run", ".clang-format", ".clang-tidy", "Dockerfile"}
-FIRST_LINE = re.compile(r"#!|<\?xml")
-COMMENT = re.compile(r"^(?://|#|<!--|/\*|%)?\s*(.*?)\s*(?:-->|\*/)?$")
+FIRST_LINE = re.compile(r"#!|<\?xml|<!doctype")
+COMMENT = re.compile(r"^(?://|#|<!--|/\*| \*|%)?\s*(.*?)\s*(?:-->|\*/)?$")
 
 
 def is_data(path):

@@ -20,7 +20,8 @@ function licenses() {
     const read = (file) => readFileSync(join(folder, 'node_modules', name, file), 'utf8');
     return `${name} ${JSON.parse(read('package.json')).version}\n\n${read('LICENSE').trim()}\n`;
   });
-  return `app.js and app.css hold parts of these packages.\n\n${parts.join(`\n${'-'.repeat(80)}\n\n`)}`;
+  const line = `\n${'-'.repeat(80)}\n\n`;
+  return `app.js and app.css hold parts of these packages.\n\n${parts.join(line)}`;
 }
 
 rmSync(dist, { recursive: true, force: true });

@@ -84,7 +84,9 @@ feed.on('hello', ({ source, source_name, version, read_only }) => {
   byId('source').dataset.source = source;
   byId('source').title =
     `palpate ${version}, ${source_name}${read_only ? ', this page may only read' : ''}`;
-  if (view) setText(byId('scene-empty-text'), 'Waiting for the robot, from palpate-force-estimation.');
+  if (view) {
+    setText(byId('scene-empty-text'), 'Waiting for the robot, from palpate-force-estimation.');
+  }
   verdict.say('Waiting for forces', 'calm');
 });
 feed.on('mesh', ({ robot }) => {
@@ -93,6 +95,14 @@ feed.on('mesh', ({ robot }) => {
 });
 feed.on('refused', ({ request, reason }) => banner.tell(`Refused (${request}): ${reason}`));
 feed.on('unreadable', ({ reason }) => banner.tell(`A message cannot be read: ${reason}`));
+
+/** What nobody sees need not be sent. */
+function subscribe() {
+  const seen = !document.hidden;
+  send({ kind: 'subscribe', images: seen, clouds: seen });
+}
+document.addEventListener('visibilitychange', subscribe);
+feed.on('hello', () => document.hidden && subscribe());
 
 /** How fast the data come now. */
 setInterval(() => {

@@ -22,10 +22,7 @@ export class CameraPanel {
     this.freshness = freshness;
     feed.on('color_image', (message) => this.#take(message, 'color'));
     feed.on('depth_image', (message) => this.#take(message, 'depth'));
-    feed.on('segmentation', (message) => {
-      this.#segments = message;
-      this.#draw();
-    });
+    feed.on('segmentation', (message) => (this.#segments = message));
     byId('camera-color').addEventListener('click', () => this.choose('color'));
     byId('camera-depth').addEventListener('click', () => this.choose('depth'));
     byId('camera-overlay').addEventListener('click', () => this.toggleOverlay());

@@ -72,7 +72,7 @@ export class ForcesPanel {
         withInterval(force.magnitude_N, shownInterval(force), 'N'))
       : element('span', { class: 'none' }, 'no number');
     return element('div', {
-      class: 'force', 'data-testid': 'force', 'data-name': force.name, 'data-usable': usable,
+      class: 'force', 'data-testid': 'force', 'data-usable': String(usable),
       style: `--color: var(--contact-${this.colors.slot(force.name)})`,
     },
     element('span', { class: 'name' }, element('i'), force.name), value,

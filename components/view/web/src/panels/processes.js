@@ -34,7 +34,8 @@ export class ProcessesPanel {
     const { processes, topics } = this.#health;
     const head = element('tr', {}, ...[['process', ''], ['in → out', 'Hz'], ['latency', 'ms'],
       ['lost', '']].map(([title, unit]) =>
-      element('th', { scope: 'col' }, title, unit && element('span', { class: 'unit' }, ` ${unit}`))));
+      element('th', { scope: 'col' }, title,
+        unit && element('span', { class: 'unit' }, ` ${unit}`))));
     const rows = processes.flatMap((process) => this.#process(process));
     rows.push(...this.#page());
     const table = element('table', { 'data-testid': 'process-table' },
@@ -53,8 +54,9 @@ export class ProcessesPanel {
       element('td', {}, `${rate(it.input_rate_hz)} → ${rate(it.output_rate_hz)}`),
       element('td', { title: `at most ${milliseconds(it.latency_max_s)}` },
         it.latency_mean_s > 0 ? number(1000 * it.latency_mean_s) : '–'),
-      element('td', { class: lost ? 'bad' : '', title: `${it.dropped} dropped, ${it.refused} refused` },
-        String(lost)));
+      element('td', {
+        class: lost ? 'bad' : '', title: `${it.dropped} dropped, ${it.refused} refused`,
+      }, String(lost)));
     const why = this.#reason(it, state);
     return why ? [row, element('tr', { class: 'reason', 'data-state': state },
       element('td', { colspan: 4 }, why))] : [row];
@@ -81,8 +83,9 @@ export class ProcessesPanel {
       element('td', {}, '–'),
       element('td', { class: total ? 'bad' : '', 'data-testid': 'drops' }, String(total)))];
     if (total) {
-      rows.push(element('tr', { class: 'reason' }, element('td', { colspan: 4 },
-        `dropped: ${dropped.map(([kind, count]) => `${count} ${kind.replaceAll('_', ' ')}`).join(', ')}`)));
+      const each = dropped.map(([kind, count]) => `${count} ${kind.replaceAll('_', ' ')}`);
+      rows.push(element('tr', { class: 'reason' },
+        element('td', { colspan: 4 }, `dropped: ${each.join(', ')}`)));
     }
     return rows;
   }
@@ -101,8 +104,8 @@ export class ProcessesPanel {
   #clocks() {
     const clocks = (this.#health.clocks ?? []).filter((clock) => isNumber(clock.offset_s));
     if (clocks.length === 0) return null;
-    return element('p', { class: 'clocks' }, ...clocks.map((clock) =>
-      `Clock of ${clock.other_host}: ${milliseconds(clock.offset_s)} ± ${milliseconds(clock.bound_s)}. `));
+    return element('p', { class: 'clocks' }, ...clocks.map(({ other_host, offset_s, bound_s }) =>
+      `Clock of ${other_host}: ${milliseconds(offset_s)} ± ${milliseconds(bound_s)}. `));
   }
 }
 

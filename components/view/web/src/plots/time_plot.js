@@ -108,7 +108,8 @@ export class TimePlot {
 
   #range(low, high) {
     const top = Math.max(high ?? 0, this.least);
-    return [Math.min(low ?? 0, 0), niceAbove(top / 4) * Math.ceil(4 * top / (4 * niceAbove(top / 4)))];
+    const step = niceAbove(top / 4);
+    return [Math.min(low ?? 0, 0), step * Math.ceil(top / step)];
   }
 }
 

@@ -5,24 +5,41 @@ import { element, setText } from '../ui/dom.js';
 
 const GAP_PX = 4;
 const TRIES = 24;
+const MEASURE_EVERY_MS = 300;
 
 /** Texts beside points of the scene, moved apart so that none hides another or a control. They
  * repeat what the panel of forces says, so they are hidden from screen readers. */
 export class Labels {
   #nodes = [];
   #items = [];
+  #measured_ms = -Infinity;
+  #frame = null;
+  #taken = [];
 
   /** @param {HTMLElement} layer over the canvas
-   * @param {() => DOMRect[]} obstacles what labels keep clear of, in the page */
+   * @param {string[]} obstacles selectors of what labels keep clear of */
   constructor(layer, stage, obstacles) {
     this.layer = layer;
     this.stage = stage;
     this.obstacles = obstacles;
   }
 
-  /** @param {{point: import('three').Vector3, text: string, detail: string, color: string}[]} items */
+  /** @param {{point: import('three').Vector3, text: string, detail: string,
+   *     color: string}[]} items */
   set(items) {
     this.#items = items;
+  }
+
+  /** Measuring makes the browser lay out the page, so not at each drawing. */
+  #measure() {
+    const now_ms = performance.now();
+    if (now_ms - this.#measured_ms < MEASURE_EVERY_MS) return;
+    this.#measured_ms = now_ms;
+    this.#frame = this.layer.getBoundingClientRect();
+    this.#taken = this.obstacles.map((selector) => {
+      const { left, top, width, height } = document.querySelector(selector).getBoundingClientRect();
+      return { x: left - this.#frame.left, y: top - this.#frame.top, width, height };
+    });
   }
 
   #write(items) {
@@ -44,10 +61,9 @@ export class Labels {
   place() {
     this.#write(this.#items);
     if (this.#items.length === 0) return;
-    const frame = this.layer.getBoundingClientRect();
-    const taken = this.obstacles()
-      .map(({ left, top, width, height }) =>
-        ({ x: left - frame.left, y: top - frame.top, width, height }));
+    this.#measure();
+    const frame = this.#frame;
+    const taken = [...this.#taken];
     this.#items.forEach(({ point }, i) => {
       const node = this.#nodes[i];
       const at = this.stage.project(point);
@@ -59,6 +75,8 @@ export class Labels {
     });
   }
 }
+
+const clamp = (x, low, high) => Math.min(Math.max(x, low), Math.max(low, high));
 
 function findRoom(at, node, frame, taken) {
   const [width, height] = [node.offsetWidth, node.offsetHeight];
@@ -79,8 +97,6 @@ function findRoom(at, node, frame, taken) {
   }
   return best;
 }
-
-const clamp = (x, low, high) => Math.min(Math.max(x, low), Math.max(low, high));
 
 function overlap(a, b) {
   return a.x < b.x + b.width + GAP_PX && b.x < a.x + a.width + GAP_PX &&

@@ -19,6 +19,8 @@ export class Stage {
   #pending = false;
   #fence = null;  // passed when the last drawing is done
   #fitted = { center: new Vector3(), radius: 0.15 };
+  /** Called before each drawing, to take in what has come since the last one. */
+  beforeDrawing = () => {};
   /** Called after each drawing: places of labels depend on the camera. */
   onDrawn = () => {};
 
@@ -56,6 +58,7 @@ export class Stage {
       return;
     }
     gl.deleteSync(this.#fence);
+    this.beforeDrawing();
     this.#pending = false;
     this.renderer.render(this.scene, this.camera);
     this.#fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -108,7 +111,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Where a point of the robot frame is drawn, CSS pixels of the canvas; null behind the camera. */
+  /** Where a point of the robot frame is drawn, CSS pixels of the canvas; null: behind it. */
   project(point) {
     const at = point.clone().project(this.camera);
     if (at.z > 1) return null;

@@ -24,11 +24,13 @@ const OBSTACLES = ['#scene-tools', '#colorbar', '#legend', '#probe', '#scene-not
 /** The 3-D view: takes messages, keeps what they hold, and draws it. */
 export class SceneView {
   #hash = null;
+  #latest = new Map();  // kind -> message not taken in yet
   #truth_hash = null;
   #radius = 0.15;
   #shown = { cloud: true, ghost: true, cables: true };
   #tensions = new UpperEnd(0.1);
-  #has = { cloud: false, objects: false, cables: false, tension: false };
+  #unseen = false;  // some nodes have no value
+  #has = { robot: false, object: false, cables: false, tension: false };
 
   constructor(feed, send, contact_colors) {
     this.stage = new Stage(byId('view'));
@@ -41,46 +43,52 @@ export class SceneView {
     this.coloring = new Coloring();
     this.colorbar = new ColorBar();
     this.probe = new Probe(send, () => this.stage.draw());
-    this.labels = new Labels(byId('labels'), this.stage, () =>
-      OBSTACLES.map((name) => document.querySelector(name).getBoundingClientRect()));
+    this.labels = new Labels(byId('labels'), this.stage, OBSTACLES);
     this.stage.scene.add(this.floor.group, this.robot.group, this.ghost.group,
       this.clouds.robot.points, this.clouds.object.points, this.cables.group,
       this.arrows.estimated.group, this.arrows.truth.group, this.probe.dot);
     this.stage.onDrawn = () => this.labels.place();
     onClick(byId('view'), (at) => this.probeAt(at));
-    onTheme(() => this.#showForces());
+    onTheme(() => {
+      this.#showForces();
+      this.stage.draw();
+    });
     this.#listen(feed);
   }
 
+  /** What comes faster than it is drawn is not worth computing: of each kind the latest is taken
+   * in before a drawing. */
   #listen(feed) {
+    const handlers = {
+      truth_mesh_state: (message) => this.#takeTruth(message),
+      mesh_state: (message) => this.#takeShape(message),
+      robot_cloud: (message) => this.#takeCloud('robot', message),
+      object_cloud: (message) => this.#takeCloud('object', message),
+      cables: ({ cables }) => this.#takeCables(cables),
+      truth_forces: ({ forces }) => this.arrows.setTruth(forces),
+      forces: ({ forces }) => this.arrows.setEstimated(forces),
+    };
+    for (const kind of Object.keys(handlers)) {
+      feed.on(kind, (message) => {
+        this.#latest.set(kind, message);
+        this.stage.draw();
+      });
+    }
+    this.stage.beforeDrawing = () => {
+      if (this.#latest.size === 0) return;
+      for (const [kind, message] of this.#latest) handlers[kind](message);
+      this.#latest.clear();
+      this.#showForces();
+    };
     feed.on('mesh', (message) => this.#takeMesh(message));
-    feed.on('mesh_state', (message) => this.#takeShape(message));
     feed.on('truth_mesh', (message) => {
       this.#truth_hash = message.hash;
       this.ghost.setMesh(message.arrays);
     });
-    feed.on('truth_mesh_state', (message) => {
-      if (!this.ghost.surface || message.hash !== this.#truth_hash) return;
-      this.ghost.surface.move(message.arrays.positions_m);
-      this.stage.draw();
-    });
-    for (const [kind, name] of [['robot_cloud', 'cloud'], ['object_cloud', 'objects']]) {
-      feed.on(kind, ({ arrays }) => {
-        this.clouds[kind.split('_')[0]].set(arrays.points_m);
-        this.#has[name] = arrays.points_m.length > 0;
-        this.stage.draw();
-      });
-    }
-    feed.on('forces', ({ forces }) => {
-      this.arrows.setEstimated(forces);
-      this.#showForces();
-    });
-    feed.on('truth_forces', ({ forces }) => this.arrows.setTruth(forces));
     feed.on('cable_paths', ({ arrays }) => {
       this.cables.setPaths(arrays);
       this.#has.cables = Object.keys(arrays).length > 0;
     });
-    feed.on('cables', ({ cables }) => this.#takeCables(cables));
     feed.on('probe', (answer) => this.probe.take(answer));
   }
 
@@ -88,6 +96,7 @@ export class SceneView {
     if (!this.coloring.has(mode)) return;
     this.coloring.mode = mode;
     this.#paintRobot();
+    this.stage.draw();
   }
 
   /** @param {'cloud' | 'ghost' | 'cables'} part */
@@ -97,6 +106,7 @@ export class SceneView {
     this.ghost.group.visible = this.#shown.ghost;
     this.cables.group.visible = this.#shown.cables;
     this.#showForces();
+    this.stage.draw();
     return this.#shown[part];
   }
 
@@ -121,6 +131,7 @@ export class SceneView {
     if (is_new) this.#fit(arrays.rest_m);
     byId('scene-empty').hidden = true;
     this.#paintRobot();
+    this.stage.draw();
   }
 
   #fit(rest_m) {
@@ -131,6 +142,18 @@ export class SceneView {
     this.#radius = radius;
     this.floor.set(center, lowest - 0.002 * radius, radius);
     this.stage.fit(center, radius);
+  }
+
+  #takeTruth({ hash, arrays }) {
+    if (this.ghost.surface && hash === this.#truth_hash) {
+      this.ghost.surface.move(arrays.positions_m);
+    }
+  }
+
+  /** @param {'robot' | 'object'} what */
+  #takeCloud(what, { arrays }) {
+    this.clouds[what].set(arrays.points_m);
+    this.#has[what] = arrays.points_m.length > 0;
   }
 
   #takeShape({ hash, status, arrays }) {
@@ -160,8 +183,7 @@ export class SceneView {
     if (!range) return;
     this.robot.paint(range.values, range.low, range.high);
     this.colorbar.show(this.coloring.mode, range);
-    this.unseen = range.known < range.values.length;
-    this.stage.draw();
+    this.#unseen = range.known < range.values.length;
   }
 
   #takeCables(cables) {
@@ -170,7 +192,6 @@ export class SceneView {
     this.#tensions.update(Math.max(0, ...tensions.values()), performance.now());
     this.#has.tension = tensions.size > 0;
     this.cables.setTensions(tensions, this.#tensions.value);
-    this.stage.draw();
   }
 
   #showForces() {
@@ -180,14 +201,13 @@ export class SceneView {
       forces: this.robot.surface !== null,
       truth: this.ghost.surface !== null,
       ghost,
-      cloud: this.#has.cloud && this.#shown.cloud,
-      objects: this.#has.objects && this.#shown.cloud,
+      cloud: this.#has.robot && this.#shown.cloud,
+      objects: this.#has.object && this.#shown.cloud,
       cables: this.#has.cables && this.#shown.cables,
       highest_tension_N: this.#has.tension ? this.#tensions.value : 0,
       grid_m: this.floor.spacing_m,
       metres_per_newton: this.arrows.metresPerNewton(this.#radius),
-      unseen: Boolean(this.unseen),
+      unseen: this.#unseen,
     });
-    this.stage.draw();
   }
 }

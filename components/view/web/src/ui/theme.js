@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+import { element } from './dom.js';
+
 const KEY = 'palpate.theme';
 const system = matchMedia('(prefers-color-scheme: dark)');
 const listeners = [];
@@ -50,7 +52,7 @@ const colors = new Map();
 /** What the style sheet has for a colour now, "rgb(...)". Canvases need it in words. */
 export function color(name) {
   if (!colors.has(name)) {
-    probe ??= document.body.appendChild(Object.assign(document.createElement('i'), { hidden: true }));
+    probe ??= document.body.appendChild(element('i', { hidden: true }));
     probe.style.color = `var(--${name})`;
     colors.set(name, getComputedStyle(probe).color);
   }
