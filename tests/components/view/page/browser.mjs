@@ -65,12 +65,14 @@ export async function pixelsOf(page) {
 
 /** The drawing after it has come to rest: what is sent has stopped before. */
 export async function settledPixels(page) {
-  for (let last = await pixelsOf(page);;) {
+  let last = await pixelsOf(page);
+  for (let same = 0; same < 5;) {
     await page.waitForTimeout(300);
     const next = await pixelsOf(page);
-    if (difference(last, next) === 0) return next;
+    same = difference(last, next) === 0 ? same + 1 : 0;
     last = next;
   }
+  return last;
 }
 
 /** Pixels of the robot's colour scale, which the rest of the page has nowhere. */
