@@ -35,15 +35,14 @@ export class Floor {
     }
     this.group.add(segments(points, this.line));
     const length = 2 * step;
-    const corner = [x0 - half, y0 - half, z_m];
     const axes = { 'axis-x': [1, 0, 0], 'axis-y': [0, 1, 0], 'axis-z': [0, 0, 1] };
     for (const [name, direction] of Object.entries(axes)) {
       const material = new LineBasicMaterial({ color: color(name) });
-      const end = corner.map((x, k) => x + length * direction[k]);
-      this.group.add(segments([...corner, ...end], material));
+      const end = direction.map((x) => length * x);
+      this.group.add(segments([0, 0, 0, ...end], material));
       const letter = makeLetter(name.at(-1), color(name));
-      letter.position.fromArray(corner.map((x, k) => x + 1.2 * length * direction[k]));
-      letter.scale.setScalar(0.8 * step);
+      letter.position.fromArray(direction.map((x) => 1.2 * length * x));
+      letter.scale.setScalar(0.55 * step);
       this.group.add(letter);
     }
   }

@@ -7,7 +7,7 @@ import { color } from '../ui/theme.js';
 import { Arrows } from './arrows.js';
 import { UpperEnd } from './scale.js';
 
-const LONGEST_SHARE = 0.55;  // of the robot's radius, for the strongest force
+const LONGEST_SHARE = 0.45;  // of the robot's radius, for the strongest force
 const THICKNESS_SHARE = 0.012;
 
 /** Arrows and labels of estimated and true forces. */

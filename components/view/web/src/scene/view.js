@@ -44,6 +44,7 @@ export class SceneView {
     this.colorbar = new ColorBar();
     this.probe = new Probe(send, () => this.stage.draw());
     this.labels = new Labels(byId('labels'), this.stage, OBSTACLES);
+    this.cables.group.visible = false;  // without the robot they say nothing
     this.stage.scene.add(this.floor.group, this.robot.group, this.ghost.group,
       this.clouds.robot.points, this.clouds.object.points, this.cables.group,
       this.arrows.estimated.group, this.arrows.truth.group, this.probe.dot);
@@ -104,7 +105,7 @@ export class SceneView {
     this.#shown[part] = !this.#shown[part];
     this.clouds.robot.points.visible = this.clouds.object.points.visible = this.#shown.cloud;
     this.ghost.group.visible = this.#shown.ghost;
-    this.cables.group.visible = this.#shown.cables;
+    this.cables.group.visible = this.#shown.cables && this.robot.mesh !== null;
     this.#showForces();
     this.stage.draw();
     return this.#shown[part];
@@ -130,6 +131,7 @@ export class SceneView {
     this.coloring.set('stiffness', arrays.stiffness_Pa ?? null);
     if (is_new) this.#fit(arrays.rest_m);
     byId('scene-empty').hidden = true;
+    this.cables.group.visible = this.#shown.cables;
     this.#paintRobot();
     this.stage.draw();
   }

@@ -8,7 +8,7 @@ export const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
 
 /** Decimals that give a number three significant digits. */
 function decimals(x) {
-  if (x === 0) return 1;
+  if (x === 0) return 0;
   const rounded = Number(Math.abs(x).toPrecision(DIGITS));
   return Math.max(0, DIGITS - 1 - Math.floor(Math.log10(rounded)));
 }
