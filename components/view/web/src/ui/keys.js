@@ -57,6 +57,10 @@ export function startKeys({ view, camera, switchTheme, toggle, pauseOrGoOn, play
       element('dd', {}, text)]));
   byId('help-open').addEventListener('click', openHelp);
   byId('help-close').addEventListener('click', () => byId('help').close());
+  // Else the hidden button keeps the focus, and the space bar, until the next drawing.
+  byId('help').addEventListener('close', () => {
+    if (byId('help').contains(document.activeElement)) document.activeElement.blur();
+  });
 }
 
 function openHelp() {
