@@ -22,6 +22,7 @@ find_package(PkgConfig REQUIRED)
 # Compression of recordings.
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
+pkg_check_modules(LZMA REQUIRED IMPORTED_TARGET liblzma)
 pkg_check_modules(LIBDEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 # Recordings of rosbag2 in its storage sqlite3.
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
+#include <utility>
 #include <string>
 
 #include "libs/core/check.hpp"
@@ -44,13 +46,13 @@ struct ExchangedPair {
 };
 
 /// The pair of labels whose exchange fits best.
-ExchangedPair BestExchange(const RestMarkers& markers, double rms_m) {
+ExchangedPair BestExchange(const Eigen::Matrix3Xd& measured_m, Eigen::Matrix3Xd model_m,
+                           double rms_m) {
   ExchangedPair best{.rms_m = rms_m};
-  Eigen::Matrix3Xd model_m = markers.model_m;
   for (Eigen::Index a = 0; a < model_m.cols(); ++a) {
     for (Eigen::Index b = a + 1; b < model_m.cols(); ++b) {
       model_m.col(a).swap(model_m.col(b));
-      const auto fit = geometry::RegisterRigid(markers.measured_m, model_m);
+      const auto fit = geometry::RegisterRigid(measured_m, model_m);
       if (fit.status.ok() && fit.rms_m < best.rms_m) best = {a, b, fit.rms_m};
       model_m.col(a).swap(model_m.col(b));
     }
@@ -63,17 +65,7 @@ Status Differ(const std::string& what) { return {StatusCode::kInvalidInput, what
 Status CheckShape(const RestMarkers& markers, const geometry::Registration& fit,
                   const RestMarkersTuning& tuning) {
   const double spread_m = Spread_m(markers.model_m);
-  if (fit.rms_m > tuning.suspicious_residual * spread_m) {
-    const ExchangedPair pair = BestExchange(markers, fit.rms_m);
-    if (pair.rms_m < tuning.exchanged_residual * fit.rms_m) {
-      return Differ(
-          "the labels of markers '" + markers.names[At(pair.first)] + "' and '" +
-          markers.names[At(pair.second)] +
-          "' look exchanged: at rest the markers' shape differs from the robot file's by " +
-          Millimetres(fit.rms_m) + " RMS, with the two exchanged by " + Millimetres(pair.rms_m) +
-          "; exchange them (palpate import --rename A=B --rename B=A)");
-    }
-  }
+  if (const auto exchange = FindExchangedLabels(markers, tuning)) return Differ(ToText(*exchange));
   if (fit.mirrored) {
     return Differ(
         "the markers at rest are the mirror image of the robot file's: an axis is reversed, or "
@@ -103,6 +95,50 @@ Status ReferenceMarkers(robot::RobotModel& model, ReferenceShape shape,
     positions_m->segment<3>(ToIndex(3 * m)) = markers[m].point.weights.Position(state.x_m);
   }
   return Status::Ok();
+}
+
+std::optional<ExchangedLabels> FindExchangedLabels(const RestMarkers& markers,
+                                                   const RestMarkersTuning& tuning) {
+  PALPATE_CHECK(markers.measured_m.cols() == markers.model_m.cols());
+  const Eigen::Index count = markers.model_m.cols();
+  const auto fit = geometry::RegisterRigid(markers.measured_m, markers.model_m);
+  if (!fit.status.ok() || fit.rms_m <= tuning.suspicious_residual * Spread_m(markers.model_m)) {
+    return std::nullopt;
+  }
+  // Any order of labels is reached by exchanging pairs, each of which fits better.
+  Eigen::Matrix3Xd model_m = markers.model_m;
+  std::vector<Eigen::Index> place(At(count));
+  std::iota(place.begin(), place.end(), Eigen::Index{0});
+  double rms_m = fit.rms_m;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const ExchangedPair pair = BestExchange(markers.measured_m, model_m, rms_m);
+    if (!(pair.rms_m < tuning.least_gain * rms_m)) break;
+    model_m.col(pair.first).swap(model_m.col(pair.second));
+    std::swap(place[At(pair.first)], place[At(pair.second)]);
+    rms_m = pair.rms_m;
+  }
+  if (!(rms_m < tuning.exchanged_residual * fit.rms_m)) return std::nullopt;
+  ExchangedLabels exchange{.pairs = {}, .rms_m = fit.rms_m, .rms_exchanged_m = rms_m};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (place[At(k)] == k) continue;
+    exchange.pairs.emplace_back(markers.names[At(k)], markers.names[At(place[At(k)])]);
+  }
+  return exchange;
+}
+
+std::string ToText(const ExchangedLabels& exchange) {
+  std::string names, renames;
+  for (std::size_t k = 0; k < exchange.pairs.size(); ++k) {
+    const auto& [label, marker] = exchange.pairs[k];
+    const bool last = k + 1 == exchange.pairs.size();
+    names += (k == 0 ? "'" : last ? " and '" : ", '") + label + "'";
+    renames += " --rename " + label + "=" + marker;
+  }
+  return "the labels of markers " + names +
+         " look exchanged: at rest the markers' shape differs from the robot file's by " +
+         Millimetres(exchange.rms_m) + " RMS, with " +
+         (exchange.pairs.size() == 2 ? "the two exchanged by " : "the right labels by ") +
+         Millimetres(exchange.rms_exchanged_m) + "; exchange them (palpate import" + renames + ")";
 }
 
 Status CheckRestMarkers(const RestMarkers& markers, RestAgreement agreement,

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/force_estimation/marker_frame.hpp"
@@ -43,8 +45,12 @@ struct RestMarkersTuning {
   double largest_residual = 0.2;
   /// Residual, in spreads, from which a pair of labels is tried the other way round.
   double suspicious_residual = 0.05;
-  /// Share of the residual that is left where two labels are exchanged.
+  /// Share of the residual that is left where labels are exchanged.
   double exchanged_residual = 0.3;
+  /// Share of the residual below which an exchange of two labels counts as a step towards the right
+  /// order. Smaller: cycles of several labels are not found. Larger: labels of near markers change
+  /// for the noise.
+  double least_gain = 0.95;
   /// Largest turn, rad: 15 degrees, which make a quarter of a displacement point elsewhere. It must
   /// also exceed four standard errors.
   double largest_turn_rad = 0.26;
@@ -52,6 +58,22 @@ struct RestMarkersTuning {
   /// Largest shift of the markers' mean, in spreads.
   double largest_shift = 1.0;
 };
+
+/// Labels that lie where the robot has other markers.
+struct ExchangedLabels {
+  /// Label in the data, and the marker of the robot that is there; two or more.
+  std::vector<std::pair<std::string, std::string>> pairs;
+  double rms_m = 0.0;            ///< of the best rigid motion onto the robot's markers
+  double rms_exchanged_m = 0.0;  ///< the same with the right labels
+};
+
+/// The labels whose exchange leaves a small share of the residual; nullopt where the markers fit as
+/// they are, where none does, or where they are too few or too near a line to tell.
+std::optional<ExchangedLabels> FindExchangedLabels(const RestMarkers& markers,
+                                                   const RestMarkersTuning& tuning = {});
+
+/// The labels by name, what fits, and how they are exchanged.
+std::string ToText(const ExchangedLabels& exchange);
 
 /// kOk where the markers agree, or are too few or too near a line to tell. kInvalidInput with what
 /// differs, how far, and the likely cause: two labels exchanged, another unit, another frame, or

@@ -16,6 +16,7 @@
 #include "components/diagnosis/report/report_html.hpp"
 #include "components/diagnosis/report/verdict_json.hpp"
 #include "components/diagnosis/vocabulary/verdict_words.hpp"
+#include "components/palpate/check_labels.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/surface_images.hpp"
@@ -123,6 +124,7 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
     const experiment::Experiment experiment = ReadData(folder, options);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
     PrintWarnings(body);
+    CheckMarkerLabels(experiment, robot);
     const fem::PointLocator places(body.mesh);
     for (const experiment::Recording& recording : experiment.recordings) {
       RequireLoadsOnBody(recording, places);

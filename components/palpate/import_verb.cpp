@@ -97,8 +97,9 @@ void CheckFits(const ImportOptions& options, const std::optional<robot::RobotDes
 
 void DeclareTarget(app::Arguments& arguments, ImportOptions& options) {
   arguments.Positional("FILE", &options.file,
-                       "Motion-capture file: .c3d, or .csv with the columns time_s, marker, x_m, "
-                       "y_m, z_m and optionally residual_m (or _mm, _cm)");
+                       "Motion-capture file: C3D, CSV of Motive or Nexus, TSV of Qualisys, TRC, or "
+                       "a table with the columns time_s, marker, x_m, y_m, z_m and optionally "
+                       "residual_m (or _mm, _cm)");
   arguments.Option("--out FOLDER", &options.out,
                    "Experiment folder; without --recording the folder of the recording itself",
                    app::Need::kRequired);
@@ -171,6 +172,7 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
   const bool is_new_experiment =
       !target.experiment_file.empty() && !fs::exists(target.experiment_file);
   const experiment::CapturedMarkers captured = ReadAndEdit(options);
+  for (const std::string& note : captured.notes) report << "note: " << note << '\n';
   experiment::Recording recording = MakeRecording(options, captured);
   const std::optional<robot::RobotDescription> robot = ReadRobot(options);
   if (!target.experiment_file.empty() && !is_new_experiment) {
@@ -197,7 +199,7 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
 }
 
 app::Verb ImportVerb() {
-  return {"import", "Convert a motion-capture file (C3D or CSV) to a recording of an experiment",
+  return {"import", "Convert a motion-capture file (C3D, CSV, TSV, TRC) to a recording of an experiment",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<ImportOptions>();
             DeclareTarget(arguments, *options);

@@ -13,6 +13,8 @@
 
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/info/describe_files.hpp"
+#include "components/palpate/info/file_kind.hpp"
 #include "components/palpate/recordings/describe_recording.hpp"
 #include "components/palpate/robot_scene.hpp"
 #include "components/view/picture/scene.hpp"
@@ -20,7 +22,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/experiment/experiment.hpp"
-#include "libs/fem/mesh_io/read_mesh.hpp"
+#include "libs/fem/mesh_io/mesh_kind.hpp"
 #include "libs/fem/mesh_report.hpp"
 #include "libs/recording/recorded_messages.hpp"
 #include "libs/robot/robot_body.hpp"
@@ -31,54 +33,6 @@ namespace palpate::command {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// The summary as a JSON document and as text.
-struct Findings {
-  Json json;
-  std::string text;
-};
-
-Json ToJson(const fem::MeshReport& report) {
-  return {{"nodes", report.node_count},
-          {"cells", report.cell_count},
-          {"nodes_per_cell", report.nodes_per_cell},
-          {"volume_m3", report.volume_m3},
-          {"worst_quality", report.worst_quality},
-          {"min_m", {report.min_m.x(), report.min_m.y(), report.min_m.z()}},
-          {"max_m", {report.max_m.x(), report.max_m.y(), report.max_m.z()}},
-          {"boundary_triangles", report.boundary_triangles},
-          {"free_edges", report.free_edges},
-          {"pieces", report.pieces},
-          {"inverted_cells", report.inverted_cells.size()},
-          {"degenerate_cells", report.degenerate_cells.size()},
-          {"duplicate_cells", report.duplicate_cells.size()}};
-}
-
-bool IsMesh(const std::filesystem::path& target) {
-  const std::string extension = target.extension().string();
-  return extension == ".vtu" || extension == ".vtk" || extension == ".msh";
-}
-
-// No soft robot is so long; a mesh file does not say its unit.
-std::vector<std::string> DoubtUnit(const fem::MeshReport& report, const std::string& unit) {
-  constexpr double kLongestRobot_m = 10.0;
-  const double length_m = (report.max_m - report.min_m).maxCoeff();
-  if (!(length_m > kLongestRobot_m)) return {};
-  const std::string smaller = unit == "m" ? "mm" : (unit == "cm" ? "mm" : "");
-  return {
-      fmt::format("{:.4g} m long{}", length_m, smaller.empty() ? "" : ": --unit " + smaller + "?")};
-}
-
-Findings DescribeMesh(const std::filesystem::path& target, const std::string& unit) {
-  const double metres_per_unit = unit == "mm" ? 1e-3 : (unit == "cm" ? 1e-2 : 1.0);
-  const fem::MeshReport report = fem::ReportMesh(fem::ReadMesh(target, metres_per_unit));
-  const std::vector<std::string> warnings = DoubtUnit(report, unit);
-  Findings found{
-      {{"mesh", ToJson(report)}, {"warnings", warnings}},
-      fmt::format("mesh {}, lengths read as {}\n{}", target.string(), unit, fem::ToText(report))};
-  for (const std::string& warning : warnings) found.text += "warning: " + warning + "\n";
-  return found;
-}
 
 // Where contacts are searched.
 void DescribeCandidates(const robot::RobotDescription& description, const robot::RobotBody& body,
@@ -108,7 +62,7 @@ Findings DescribeRobot(const InfoOptions& options) {
   found.text =
       fmt::format("robot {} ({})\n{}", body.name, description.file.string(), fem::ToText(report));
   found.json = {{"robot", body.name},           {"mesh_hash", body.mesh_hash},
-                {"mesh", ToJson(report)},       {"mass_kg", body.node_mass_kg.sum()},
+                {"mesh", MeshJson(report)},     {"mass_kg", body.node_mass_kg.sum()},
                 {"cables", Json::array()},      {"markers", Json::array()},
                 {"regions", body.region_names}, {"feature_points", body.feature_points.size()},
                 {"warnings", body.warnings},    {"notes", body.notes}};
@@ -160,22 +114,42 @@ Findings DescribeExperiment(const std::filesystem::path& target) {
   return found;
 }
 
+/// Only a robot file can be drawn; `what` is what the target is.
+void RefusePng(const InfoOptions& options, const std::string& what) {
+  if (options.png.empty()) return;
+  throw InputError("--png draws a robot; " + options.target.string() + " is " + what);
+}
+
+Findings DescribeFolder(const InfoOptions& options) {
+  RefusePng(options, "a folder");
+  const std::filesystem::path& folder = options.target;
+  const bool experiment = std::filesystem::exists(folder / "experiment.yaml") ||
+                          std::filesystem::exists(folder / "recording.yaml");
+  if (!experiment && std::filesystem::exists(folder / "depth.txt")) {
+    return DescribeTumFolder(folder);
+  }
+  return DescribeExperiment(folder);
+}
+
 Findings Describe(const InfoOptions& options) {
   const std::filesystem::path& target = options.target;
-  const auto files = recording::MessageFilesOf(target);
-  const bool is_folder = std::filesystem::is_directory(target);
-  if (!options.png.empty() && (!files.empty() || is_folder || IsMesh(target))) {
-    throw InputError("--png draws a robot; " + target.string() + " is " +
-                     (IsMesh(target) ? "a mesh"
-                      : is_folder    ? "a folder"
-                                     : "a recording"));
-  }
-  if (!files.empty()) {
+  if (const auto files = recording::MessageFilesOf(target); !files.empty()) {
+    RefusePng(options, "a recording");
     RecordingDescription described = DescribeRecording(files);
     return {std::move(described.json), std::move(described.text)};
   }
-  if (is_folder) return DescribeExperiment(target);
-  return IsMesh(target) ? DescribeMesh(target, options.unit) : DescribeRobot(options);
+  if (std::filesystem::is_directory(target)) return DescribeFolder(options);
+  if (!std::filesystem::exists(target)) return DescribeRobot(options);  // a name, or misspelt
+  const FileKind kind = KindOf(target);
+  if (kind.family == FileKind::Family::kSettings) return DescribeRobot(options);
+  if (kind.family == FileKind::Family::kMesh) RefusePng(options, "a mesh");
+  RefusePng(options, kind.name.empty() ? "none" : "a " + kind.name);
+  if (kind.family == FileKind::Family::kMesh) return DescribeMesh(target, options.unit);
+  if (kind.family != FileKind::Family::kUnknown) return DescribeFile(target, kind);
+  throw InputError(SourceLocation{target.string()},
+                   "is of no kind that is known; it begins with " + BeginningOf(target) +
+                       ". A robot file is YAML and ends in .yaml, a mesh in " +
+                       fem::MeshEndings() + ", motion capture in .c3d, .csv, .tsv or .trc");
 }
 
 }  // namespace
@@ -188,16 +162,18 @@ int Info(const InfoOptions& options) {
 }
 
 app::Verb InfoVerb() {
-  return {"info", "Summarise and check a robot file, mesh, data folder or recording of topics",
+  return {"info", "Say what a file or folder is, summarise and check it",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<InfoOptions>();
             arguments.Positional(
                 "TARGET", &options->target,
-                "Robot file, name of a robot in config/robots, mesh (.vtu, .vtk, "
-                ".msh), experiment or recording folder, or MCAP or .db3 file or folder of them");
+                "Robot file, name of a robot in config/robots, mesh, motion capture, point cloud, "
+                "image, experiment, recording or TUM folder, or MCAP or .db3 file or folder of "
+                "them");
             arguments.Suggest("TARGET", KnownRobots());
             arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"},
-                             "Length unit of a mesh file; robot files name their own");
+                             "Length unit of a mesh file; without it lengths are those of the file; "
+                             "robot files name their own");
             arguments.Option("--png FILE", &options->png,
                              "PNG file to draw: the undeformed robot with its cables, markers and "
                              "contact candidates");

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "libs/core/statistics.hpp"
+#include "libs/experiment/capture/wide_markers.hpp"
 #include "libs/experiment/captured_markers.hpp"
 #include "libs/experiment/csv_columns.hpp"
 #include "libs/experiment/csv_table.hpp"
@@ -54,16 +54,6 @@ MarkerColumns FindColumns(const CsvTable& table) {
   }
   finder.Finish();
   return columns;
-}
-
-double MedianRate(const std::vector<MarkerFrame>& frames) {
-  if (frames.size() < 2) return 0.0;
-  std::vector<double> steps_s;
-  steps_s.reserve(frames.size() - 1);
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    steps_s.push_back(frames[i].t_s - frames[i - 1].t_s);
-  }
-  return 1.0 / UpperMedian(steps_s);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct CapturedMarkers {
   Residuals residuals_m;  ///< of the reconstruction, [frame][marker]; empty where not known
   /// Bit i: camera i saw the marker, [frame][marker]; empty where not known.
   std::vector<std::vector<std::uint8_t>> cameras;
+  std::vector<std::string> notes;  ///< what was left out or renamed, one sentence each
 };
 
 struct C3dOptions {
@@ -32,15 +33,22 @@ struct C3dOptions {
 /// Reads the 3-D points of a C3D file (https://www.c3d.org/docs/C3D_User_Guide.pdf): Intel, DEC and
 /// SGI/MIPS numbers, integer or real points, more than 65535 frames (TRIAL:ACTUAL_END_FIELD,
 /// POINT:LONG_FRAMES) and more than 255 labels (LABELS2, ...). Analog samples are skipped. A
-/// negative residual is a gap. Labels lose their blanks ("Tip - 1" becomes "Tip-1"); points without
-/// a label are called unlabelled_<number from 1>.
-/// Throws InputError with the byte offset for a file that is cut short, contradicts itself, names a
-/// label twice or holds what is no finite number.
+/// negative residual and a coordinate that is NaN are a gap. Labels lose their blanks ("Tip - 1"
+/// becomes "Tip-1"); points without a label are called unlabelled_<number from 1>. Left out with a
+/// note are points that no frame sees, and model outputs that are no lengths (POINT:ANGLES, FORCES,
+/// MOMENTS, POWERS, SCALARS and what POINT:TYPE_GROUPS names besides). Two points that share a
+/// label and are both seen are called label_1 and label_2, with a note.
+/// Throws InputError with the byte offset for a file that is cut short, contradicts itself, sees no
+/// point at all or holds an infinite coordinate.
 CapturedMarkers ReadC3d(const std::filesystem::path& file, const C3dOptions& options = {});
 
 /// Reads a plain table of one row for each time and marker: time_s or t_s, marker, x, y, z and
 /// optionally residual, lengths as _m, _cm or _mm columns, in any order. Throws InputError as
 /// ReadMarkers does. The rate is that of the median time step, 0 for a single frame.
 CapturedMarkers ReadCapturedCsv(const std::filesystem::path& file);
+
+/// Reads any motion capture: C3D, the text files of Motive, Nexus, Qualisys and Cortex (see
+/// capture/exports.hpp), or such a plain table. The first bytes decide (capture/capture_kind.hpp).
+CapturedMarkers ReadCapture(const std::filesystem::path& file, const C3dOptions& options = {});
 
 }  // namespace palpate::experiment

@@ -38,11 +38,11 @@ std::string_view TakeLine(std::string_view& rest) {
 // Splits a line into its fields, quotes and blanks included.
 class FieldSplitter {
  public:
-  explicit FieldSplitter(std::string_view line) : line_(line) {}
+  FieldSplitter(std::string_view line, char separator) : line_(line), separator_(separator) {}
 
   bool Next(std::string_view& field) {
     if (done_) return false;
-    const std::size_t end = line_.find(',');
+    const std::size_t end = line_.find(separator_);
     field = line_.substr(0, end);
     done_ = end == std::string_view::npos;
     if (!done_) line_.remove_prefix(end + 1);
@@ -51,8 +51,22 @@ class FieldSplitter {
 
  private:
   std::string_view line_;
+  char separator_;
   bool done_ = false;
 };
+
+char SeparatorOf(std::string_view header) {
+  if (header.find(',') != std::string_view::npos) return ',';
+  if (header.find(';') != std::string_view::npos) return ';';
+  return header.find('\t') != std::string_view::npos ? '\t' : ',';
+}
+
+// "0,25" as 0.25.
+bool ParseWithComma(std::string_view text, double* value) {
+  std::string with_point(text);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return ParseFinite(with_point, value);
+}
 
 }  // namespace
 
@@ -71,17 +85,13 @@ CsvTable CsvTable::Read(const std::filesystem::path& file) {
   for (int line_number = 2; !rest.empty(); ++line_number) {
     table.ParseRow(TakeLine(rest), line_number);
   }
+  table.FindDecimalComma();
   return table;
 }
 
 void CsvTable::ParseHeader(std::string_view line) {
-  if (line.find(',') == std::string_view::npos && line.find(';') != std::string_view::npos) {
-    const int column = static_cast<int>(line.find(';')) + 1;
-    throw InputError(SourceLocation{file_, 1, column},
-                     "fields are separated by ';'; separate them by ',' and write numbers with a "
-                     "decimal point");
-  }
-  FieldSplitter fields(line);
+  separator_ = SeparatorOf(line);
+  FieldSplitter fields(line, separator_);
   for (std::string_view field; fields.Next(field);) {
     const std::string name(WithoutQuotes(WithoutBlanks(field)));
     const int column = static_cast<int>(field.data() - line.data()) + 1;
@@ -96,7 +106,7 @@ void CsvTable::ParseHeader(std::string_view line) {
 }
 
 void CsvTable::ParseRow(std::string_view line, int line_number) {
-  FieldSplitter fields(line);
+  FieldSplitter fields(line, separator_);
   std::size_t count = 0;
   for (std::string_view field; fields.Next(field); ++count) {
     const std::string_view text = WithoutQuotes(WithoutBlanks(field));
@@ -108,9 +118,10 @@ void CsvTable::ParseRow(std::string_view line, int line_number) {
     cells_.push_back(text);
   }
   if (count != header_.size()) {
-    throw InputError(SourceLocation{file_, line_number, 1}, "the row has " + std::to_string(count) +
-                                                                " fields, the header has " +
-                                                                std::to_string(header_.size()));
+    throw InputError(SourceLocation{file_, line_number, 1},
+                     "the row has " + std::to_string(count) + " fields, the header has " +
+                         std::to_string(header_.size()) + ", separated by " +
+                         (separator_ == '\t' ? "tabs" : std::string("'") + separator_ + "'"));
   }
 }
 
@@ -118,10 +129,30 @@ std::optional<double> CsvTable::OptionalNumber(std::size_t row, std::size_t colu
   const std::string_view text = Text(row, column);
   if (text.empty()) return std::nullopt;
   double value = 0.0;
-  if (!ParseFinite(text, &value)) {
+  if (!ParseNumber(text, &value)) {
     Refuse(row, column, "not a finite number (a missing sample is an empty field)");
   }
   return value;
+}
+
+std::optional<double> CsvTable::OptionalSample(std::size_t row, std::size_t column) const {
+  const std::string_view text = Text(row, column);
+  if (text == "NaN" || text == "nan" || text == "NAN") return std::nullopt;
+  return OptionalNumber(row, column);
+}
+
+void CsvTable::FindDecimalComma() {
+  double value = 0.0;
+  decimal_comma_ = separator_ != ',' &&
+                   std::any_of(cells_.begin(), cells_.end(), [&](std::string_view text) {
+                     return text.find(',') != std::string_view::npos && ParseWithComma(text, &value);
+                   });
+}
+
+// Where commas are decimal a point could group thousands, and is refused.
+bool CsvTable::ParseNumber(std::string_view text, double* value) const {
+  if (!decimal_comma_) return ParseFinite(text, value);
+  return text.find('.') == std::string_view::npos && ParseWithComma(text, value);
 }
 
 double CsvTable::Number(std::size_t row, std::size_t column) const {

@@ -17,7 +17,9 @@ namespace palpate::experiment {
 
 /// A comma-separated table with one header line, kept as text until a field is asked for.
 /// Blanks around a field and quotes about a whole field are dropped; CR LF and a byte order mark
-/// are understood; empty lines are allowed at the end only.
+/// are understood; empty lines are allowed at the end only. A header without commas may have
+/// semicolons or tabs between its fields, as spreadsheets of some countries write them; then
+/// numbers may have a decimal comma, all of them or none.
 class CsvTable {
  public:
   /// Throws InputError with file:line:column where the file cannot be read, is empty, has a row
@@ -36,6 +38,8 @@ class CsvTable {
   std::optional<double> OptionalNumber(std::size_t row, std::size_t column) const;
   /// A finite number; an empty field throws InputError as well.
   double Number(std::size_t row, std::size_t column) const;
+  /// As OptionalNumber, and nullopt also for NaN, which stands for a missing sample.
+  std::optional<double> OptionalSample(std::size_t row, std::size_t column) const;
 
   int Line(std::size_t row) const { return static_cast<int>(row) + 2; }
   SourceLocation Where(std::size_t row, std::size_t column) const;
@@ -49,8 +53,12 @@ class CsvTable {
   void ParseHeader(std::string_view line);
   void ParseRow(std::string_view line, int line_number);
   int ColumnOf(std::string_view field) const;
+  bool ParseNumber(std::string_view text, double* value) const;
+  void FindDecimalComma();
 
   std::string file_;
+  char separator_ = ',';
+  bool decimal_comma_ = false;
   std::unique_ptr<const std::string>
       bytes_;  // what the fields point into; moving keeps its address
   std::vector<std::string> header_;

@@ -84,7 +84,7 @@ class FrameBuilder {
 
   std::optional<double> ReadResidual(std::size_t row) const {
     if (!columns_.residual) return std::nullopt;
-    const std::optional<double> residual = table_.OptionalNumber(row, *columns_.residual);
+    const std::optional<double> residual = table_.OptionalSample(row, *columns_.residual);
     if (!residual) return std::nullopt;
     return *residual * columns_.residual_metres_per_unit;
   }
@@ -94,7 +94,7 @@ class FrameBuilder {
     int missing = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
-      const std::optional<double> value = table_.OptionalNumber(row, columns_.position[i]);
+      const std::optional<double> value = table_.OptionalSample(row, columns_.position[i]);
       if (!value) ++missing;
       position_m[axis] = value.value_or(0.0) * columns_.metres_per_unit[i];
       if (std::abs(position_m[axis]) > kLargestCoordinate_m) {

@@ -32,7 +32,7 @@ struct MarkerTable {
 };
 
 /// Groups the rows to frames. Throws InputError as ReadMarkers does. A negative residual says that
-/// the marker was not seen, as in C3D files.
+/// the marker was not seen, as in C3D files; so do coordinates that are NaN.
 MarkerTable ReadMarkerTable(const CsvTable& table, const MarkerColumns& columns);
 
 }  // namespace palpate::experiment

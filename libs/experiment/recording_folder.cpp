@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <system_error>
 #include <utility>
 
@@ -12,6 +10,7 @@
 #include "libs/experiment/folders.hpp"
 #include "libs/experiment/recording.hpp"
 #include "libs/experiment/recording_settings.hpp"
+#include "libs/experiment/stamped_files.hpp"
 
 namespace palpate::experiment {
 
@@ -34,42 +33,6 @@ void RefuseMisspeltEntries(const fs::path& folder) {
       throw InputError(SourceLocation{entry.string()}, "is no part of a recording" + near);
     }
   }
-}
-
-StampedFile ParseStampedFile(const fs::path& file, const std::vector<std::string>& extensions) {
-  StampedFile stamped;
-  stamped.file = file;
-  const std::string stem = file.stem().string();
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), stamped.t_ns);
-  const bool known_extension =
-      std::find(extensions.begin(), extensions.end(), file.extension()) != extensions.end();
-  if (error != std::errc() || end != stem.data() + stem.size() || !known_extension) {
-    throw InputError(SourceLocation{file.string()},
-                     "the name must be the time in nanoseconds and end in " + extensions.front());
-  }
-  return stamped;
-}
-
-std::vector<StampedFile> SortByTime(std::vector<StampedFile> files) {
-  const auto by_time = [](const StampedFile& a, const StampedFile& b) { return a.t_ns < b.t_ns; };
-  std::sort(files.begin(), files.end(), by_time);
-  for (std::size_t i = 1; i < files.size(); ++i) {
-    if (files[i].t_ns == files[i - 1].t_ns) {
-      throw InputError(SourceLocation{files[i].file.string()},
-                       "has the same time as " + files[i - 1].file.filename().string());
-    }
-  }
-  return files;
-}
-
-std::vector<StampedFile> ListStampedFiles(const fs::path& folder,
-                                          const std::vector<std::string>& extensions) {
-  std::vector<StampedFile> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const fs::path& file : EntriesOf(folder)) {
-    files.push_back(ParseStampedFile(file, extensions));
-  }
-  return SortByTime(std::move(files));
 }
 
 void CheckWindowHoldsFrames(const MarkerTracks& markers, const TimeWindow& window,
@@ -98,18 +61,16 @@ void CheckWindows(const Recording& recording, const fs::path& file) {
 void CopyFiles(const std::vector<StampedFile>& files, const fs::path& folder) {
   if (files.empty()) return;
   CreateFolder(folder);
-  for (const StampedFile& file : files) CopyFile(file.file, folder / file.file.filename());
+  for (const StampedFile& file : files) {
+    CopyFile(file.file, folder / (std::to_string(file.t_ns) + file.file.extension().string()));
+  }
 }
 
 }  // namespace
 
 std::vector<StampedFile> ListClouds(const fs::path& folder) {
-  std::vector<StampedFile> files;
-  for (const fs::path& file : EntriesOf(folder)) {
-    const bool cloud = file.extension() == ".pcd" || file.extension() == ".ply";
-    if (cloud) files.push_back(ParseStampedFile(file, {".pcd", ".ply"}));
-  }
-  return SortByTime(std::move(files));
+  return ListStampedFiles(
+      folder, {.extensions = {".pcd", ".ply"}, .skip_others = true, .frame_rate_Hz = {}});
 }
 
 Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
@@ -121,7 +82,7 @@ Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
   Recording recording;
   recording.folder = folder;
   recording.name = NameOf(folder);
-  ReadRecordingSettings(settings, load, recording);
+  const std::optional<double> frame_rate_Hz = ReadRecordingSettings(settings, load, recording);
   if (const fs::path file = folder / "actuation.csv"; fs::exists(file)) {
     recording.actuation = ReadActuation(file);
   }
@@ -134,9 +95,14 @@ Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
   if (const fs::path file = folder / "camera.yaml"; fs::exists(file)) {
     recording.camera_file = file;
   }
-  recording.depth_images = ListStampedFiles(folder / "depth", {".png"});
-  recording.color_images = ListStampedFiles(folder / "color", {".png"});
-  recording.clouds = ListStampedFiles(folder / "clouds", {".pcd", ".ply"});
+  const auto list = [&](const char* images, const std::vector<std::string>& extensions) {
+    return ListStampedFiles(folder / images, {.extensions = extensions,
+                                              .skip_others = false,
+                                              .frame_rate_Hz = frame_rate_Hz});
+  };
+  recording.depth_images = list("depth", {".png"});
+  recording.color_images = list("color", {".png", ".jpg", ".jpeg"});
+  recording.clouds = list("clouds", {".pcd", ".ply"});
   CheckWindows(recording, settings);
   return recording;
 }

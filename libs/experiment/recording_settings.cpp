@@ -65,12 +65,15 @@ const KeyTable& RecordingKeys() {
                 "Window from which marker displacements count. Absent: markers are positions."},
                {"steady_window_s", value::Numbers({}, 2, 2), kOptional,
                 "`[begin, end]`: the static phase, begin < end. Absent: the whole recording."},
+               {"frame_rate_Hz", value::Real(kPositive), kOptional,
+                "Names in depth/, color/ and clouds/ end in the number of the frame, t_s = number / "
+                "frame_rate_Hz. Absent: names are times."},
                {"notes", value::Text(), kOptional, "For people."}}};
   return keys;
 }
 
-void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader& load,
-                           Recording& recording) {
+std::optional<double> ReadRecordingSettings(const std::filesystem::path& file,
+                                            const ConfigLoader& load, Recording& recording) {
   const ConfigNode root = load(file);
   MapReader reader(root, RecordingKeys());
   const ConfigNode& kind = reader.Require("kind");
@@ -91,8 +94,11 @@ void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader
   if (const ConfigNode* node = reader.Optional("steady_window_s")) {
     recording.steady_window_s = ReadWindow(*node);
   }
+  std::optional<double> frame_rate_Hz;
+  reader.Read("frame_rate_Hz", &frame_rate_Hz);
   reader.Read("notes", &recording.notes);
   reader.Finish();
+  return frame_rate_Hz;
 }
 
 std::string FormatRecordingSettings(const Recording& recording) {

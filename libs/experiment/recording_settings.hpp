@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "libs/core/config_node.hpp"
@@ -16,9 +17,10 @@ namespace palpate::experiment {
 const KeyTable& RecordingKeys();
 
 /// Reads recording.yaml strictly into the settings of `recording`; the tables are left alone.
-/// Throws InputError with file:line:column.
-void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader& load,
-                           Recording& recording);
+/// Returns `frame_rate_Hz`, for the names of images and clouds. Throws InputError with
+/// file:line:column.
+std::optional<double> ReadRecordingSettings(const std::filesystem::path& file,
+                                            const ConfigLoader& load, Recording& recording);
 
 /// The text of recording.yaml.
 std::string FormatRecordingSettings(const Recording& recording);

@@ -93,6 +93,19 @@ bool DecodeHeader(png_structp png, png_infop info, Rows* image_rows, bool* trans
   return true;
 }
 
+/// Rows of four bytes a pixel: red, green, blue, alpha.
+bool DecodeRowsWithAlpha(png_structp png, png_infop info, Rows* image_rows) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_expand(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  png_read_image(png, image_rows->rows.data());
+  png_read_end(png, nullptr);
+  return true;
+}
+
 bool DecodeRows(png_structp png, png_infop info, Rows* image_rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   if (image_rows->bit_depth == 16) {
@@ -169,8 +182,31 @@ class Decoder {
       Refuse("has " + std::to_string(rows_.width_px) + " x " + std::to_string(rows_.height_px) +
              " pixels; at most 64 million are read");
     }
-    if (transparent) Refuse("has an alpha channel or transparent colour; an image must have none");
+    transparent_ = transparent;
     return rows_;
+  }
+
+  bool transparent() const { return transparent_; }
+
+  /// Of an image that could have been transparent. Throws InputError where a pixel is.
+  ColorImage OpaquePixels() {
+    const auto pixels = static_cast<std::size_t>(rows_.width_px) *
+                        static_cast<std::size_t>(rows_.height_px);
+    std::vector<png_byte> rgba(4 * pixels);
+    rows_.rows.clear();
+    for (std::size_t v = 0; v < static_cast<std::size_t>(rows_.height_px); ++v) {
+      rows_.rows.push_back(rgba.data() + 4 * v * static_cast<std::size_t>(rows_.width_px));
+    }
+    if (!DecodeRowsWithAlpha(png_, info_, &rows_)) RefuseDamaged();
+    ColorImage image(rows_.width_px, rows_.height_px);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (rgba[4 * i + 3] != 0xff) {
+        Refuse("is transparent in places (alpha below 255); a colour image must be opaque");
+      }
+      std::copy_n(rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
+                  image.values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+    return image;
   }
 
   template <typename Image>
@@ -190,6 +226,7 @@ class Decoder {
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   Rows rows_;
+  bool transparent_ = false;
 };
 
 }  // namespace
@@ -220,6 +257,7 @@ DepthImage DecodeDepthPng(std::string_view png, const std::string& name) {
                    std::to_string(header.bit_depth) + " bits of " +
                    (header.color_type == PNG_COLOR_TYPE_GRAY ? "grey" : "colour"));
   }
+  if (decoder.transparent()) decoder.Refuse("has a transparent value; a depth image has none");
   return decoder.Pixels<DepthImage>();
 }
 
@@ -228,7 +266,7 @@ ColorImage DecodeColorPng(std::string_view png, const std::string& name) {
   if (decoder.Header().bit_depth == 16) {
     decoder.Refuse("a colour image has 8 bits a channel, this one has 16");
   }
-  return decoder.Pixels<ColorImage>();
+  return decoder.transparent() ? decoder.OpaquePixels() : decoder.Pixels<ColorImage>();
 }
 
 }  // namespace palpate::rgbd

@@ -14,7 +14,8 @@ namespace palpate::rgbd {
 /// 16-bit grey and 8-bit RGB PNG. The same image gives the same bytes (no time stamp inside).
 /// Writing throws RunError where not all of it could be written (full disk; nothing half-written is
 /// left behind); reading throws InputError naming the file: no PNG, truncated, of another kind
-/// (8-bit depth, alpha, interlaced images of more than 64 Mpx, ...).
+/// (8-bit depth, a pixel that is transparent, images of more than 64 Mpx, ...). An alpha channel
+/// that is opaque throughout is dropped.
 /// `level`: zlib's, 0 to 9; 1 is several times faster than 6 on noise.
 void WriteDepthPng(const std::filesystem::path& file, const DepthImage& image, int level = 1);
 void WriteColorPng(const std::filesystem::path& file, const ColorImage& image, int level = 1);

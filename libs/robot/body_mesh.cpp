@@ -16,6 +16,7 @@
 #include "libs/core/index.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_report.hpp"
+#include "libs/fem/seams.hpp"
 #include "libs/geometry/box.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 
@@ -61,6 +62,16 @@ std::string Summary(const fem::MeshReport& report, const std::string& file) {
          ")";
 }
 
+/// Indices of the nodes, the first few.
+std::string SomeOf(const std::vector<int>& nodes) {
+  constexpr size_t kShown = 5;
+  std::string text;
+  for (size_t k = 0; k < std::min(kShown, nodes.size()); ++k) {
+    text += (k == 0 ? "" : ", ") + std::to_string(nodes[k]);
+  }
+  return nodes.size() > kShown ? text + ", ..." : text;
+}
+
 void AddReportNotes(const fem::MeshReport& report, const std::string& file,
                     std::vector<std::string>* notes) {
   notes->push_back(Summary(report, file));
@@ -69,6 +80,15 @@ void AddReportNotes(const fem::MeshReport& report, const std::string& file,
   }
   if (report.parts > report.pieces) {
     notes->push_back("mesh " + file + ": some parts hang together by an edge or a node only");
+  }
+  std::vector<int> loose = report.duplicate_nodes;
+  std::erase_if(loose, [&](int node) {
+    return std::binary_search(report.unused_nodes.begin(), report.unused_nodes.end(), node);
+  });
+  if (!loose.empty()) {
+    notes->push_back("mesh " + file + ": " + std::to_string(loose.size()) +
+                     " nodes lie where another one does and are not joined (" + SomeOf(loose) +
+                     "): the body has a slit there");
   }
   if (!report.unused_nodes.empty()) {
     notes->push_back("mesh " + file + ": " + std::to_string(report.unused_nodes.size()) +
@@ -134,12 +154,43 @@ void RefuseLoosePieces(const RobotDescription& robot, const BodyMesh& body,
   }
 }
 
+std::string SizeText(const Eigen::Vector3d& size_m) {
+  const double unit_m = size_m.maxCoeff() < 0.1 ? 1e-3 : 1.0;
+  const auto text = [&](Eigen::Index axis) { return Printed("%.3g", size_m[axis] / unit_m); };
+  return text(0) + " x " + text(1) + " x " + text(2) + (unit_m == 1.0 ? " m" : " mm");
+}
+
+/// A mesh file does not say its unit. No soft robot is longer than 10 m, or shorter than 0.1 mm.
+void CheckSize(const RobotDescription& robot, const fem::TetMesh& mesh) {
+  constexpr double kShortest_m = 1e-4, kLongest_m = 10.0;
+  const geometry::Box box = geometry::BoundingBox(mesh.nodes_m(Eigen::all, mesh.cells.reshaped()));
+  const Eigen::Vector3d size_m = box.upper_m - box.lower_m;
+  const double length_m = size_m.maxCoeff();
+  if (length_m >= kShortest_m && length_m <= kLongest_m) return;
+  const std::string unit = robot.mesh.metres_per_unit == 1.0    ? "m"
+                           : robot.mesh.metres_per_unit == 1e-2 ? "cm"
+                                                                : "mm";
+  throw InputError(robot.mesh.where, "the body would be " + SizeText(size_m) + " large with unit: " +
+                                         unit + "; is the mesh in " +
+                                         (length_m > kLongest_m ? "mm" : "m") + "?");
+}
+
+void NoteJoined(const std::vector<int>& joined, const RobotDescription& robot,
+                std::vector<std::string>* notes) {
+  if (joined.empty()) return;
+  notes->push_back("mesh " + robot.mesh.file.filename().string() + ": " +
+                   std::to_string(joined.size()) + " doubled nodes joined at a seam (" +
+                   SomeOf(joined) + ")");
+}
+
 fem::TetMesh ReadChecked(const RobotDescription& robot, std::vector<std::string>* notes) {
   const std::string file = robot.mesh.file.string();
   if (!std::filesystem::exists(robot.mesh.file)) {
     throw InputError(robot.mesh.where, "there is no mesh file " + file);
   }
   fem::TetMesh mesh = fem::ReadMesh(robot.mesh.file, robot.mesh.metres_per_unit, notes);
+  CheckSize(robot, mesh);
+  NoteJoined(fem::JoinSeams(&mesh), robot, notes);
   const fem::MeshReport report = fem::ReportMesh(mesh);
   fem::CheckSolvable(mesh, report, file, fem::Pieces::kSeveralAllowed);
   if (robot.element == fem::ElementType::kTet4 && mesh.element_type() != robot.element) {

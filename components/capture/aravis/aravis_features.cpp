@@ -3,6 +3,8 @@
 
 #include "components/capture/aravis/aravis_features.hpp"
 
+#include <cmath>
+
 #include "components/capture/aravis/gobject.hpp"
 
 namespace palpate::capture {
@@ -14,8 +16,18 @@ ArvGcNode* AravisFeatures::Node(const std::string& name) {
 
 bool AravisFeatures::Has(const std::string& name) {
   if (Node(name) == nullptr) return false;
-  GErrorHolder error;
-  return arv_device_is_feature_available(device_, name.c_str(), error.Take()) != 0 && error.ok();
+  return IsUsable(Node(name));
+}
+
+/// Aravis' "available" does not ask whether the feature is implemented.
+bool AravisFeatures::IsUsable(ArvGcNode* node) {
+  GErrorHolder implemented_error;
+  GErrorHolder available_error;
+  auto* feature = ARV_GC_FEATURE_NODE(node);
+  return arv_gc_feature_node_is_implemented(feature, implemented_error.Take()) != 0 &&
+         implemented_error.ok() &&
+         arv_gc_feature_node_is_available(feature, available_error.Take()) != 0 &&
+         available_error.ok();
 }
 
 std::optional<double> AravisFeatures::Number(const std::string& name) {
@@ -71,9 +83,8 @@ std::vector<std::pair<std::string, std::int64_t>> AravisFeatures::Choices(const 
     if (!ARV_IS_GC_ENUM_ENTRY(item->data)) continue;
     GErrorHolder error;
     auto* entry = ARV_GC_FEATURE_NODE(item->data);
-    const bool available = arv_gc_feature_node_is_available(entry, error.Take()) != 0;
     const char* entry_name = arv_gc_feature_node_get_name(entry);
-    if (!available || !error.ok() || entry_name == nullptr) continue;
+    if (!IsUsable(ARV_GC_NODE(entry)) || entry_name == nullptr) continue;
     const auto value = arv_gc_enum_entry_get_value(ARV_GC_ENUM_ENTRY(item->data), error.Take());
     if (error.ok()) choices.emplace_back(entry_name, value);
   }
@@ -105,7 +116,7 @@ Status AravisFeatures::Set(const std::string& name, const FeatureValue& value) {
     arv_gc_float_set_value(ARV_GC_FLOAT(node), *number, error.Take());
   } else if (const double* other = std::get_if<double>(&value);
              other && ARV_IS_GC_INTEGER(node) && !ARV_IS_GC_ENUMERATION(node)) {
-    arv_gc_integer_set_value(ARV_GC_INTEGER(node), static_cast<std::int64_t>(*other), error.Take());
+    arv_gc_integer_set_value(ARV_GC_INTEGER(node), std::llround(*other), error.Take());
   } else if (const auto* text = std::get_if<std::string>(&value);
              text && ARV_IS_GC_ENUMERATION(node)) {
     arv_gc_enumeration_set_string_value(ARV_GC_ENUMERATION(node), text->c_str(), error.Take());

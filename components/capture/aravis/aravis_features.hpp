@@ -30,6 +30,7 @@ class AravisFeatures : public Features {
 
  private:
   ArvGcNode* Node(const std::string& name);
+  static bool IsUsable(ArvGcNode* node);
 
   ArvDevice* device_;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libs/core/clock.hpp"
+#include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 
@@ -66,10 +67,14 @@ void CaptureNode::Run() {
   loop_.Run();
   stop_ = true;
   writer_.join();
-  Report(source_->Health());
+  WatchSource();
+  const SourceHealth health = source_->Health();
+  Report(health);
   if (!publisher_.WaitUntilReceived(kLastMessagesWait)) {
     log_.Write(Severity::kWarning, "a reader has not confirmed the last frames");
   }
+  const bool nothing_read = health.frames == 0 && health.frames_failed > 0;
+  if (health.state == SourceState::kEnded && nothing_read) throw RunError(health.reason);
 }
 
 void CaptureNode::PublishFrames() {
@@ -128,8 +133,8 @@ void CaptureNode::LogChange(const SourceHealth& health) {
     log_.Write(Severity::kInfo,
                health.device + " streams (epoch " + std::to_string(health.epoch) + ")");
   } else if (!health.reason.empty() && last_words_.find(health.reason) == std::string::npos) {
-    log_.Write(health.state == SourceState::kEnded ? Severity::kInfo : Severity::kWarning,
-               health.reason);
+    const bool all_well = health.state == SourceState::kEnded && health.frames_failed == 0;
+    log_.Write(all_well ? Severity::kInfo : Severity::kWarning, health.reason);
   }
   if (health.notes == last_notes_) return;
   last_notes_ = health.notes;

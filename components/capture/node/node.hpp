@@ -27,7 +27,7 @@ class CaptureNode {
               dds::TopicTable table, dds::NodeLog::ProcessLog process_log);
   ~CaptureNode();
 
-  /// Until Stop(), or the end of a recording.
+  /// Until Stop(), or the end of a recording. Throws RunError where no frame of it could be read.
   void Run();
   /// From any thread.
   void Stop();

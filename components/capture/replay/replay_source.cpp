@@ -34,6 +34,9 @@ ReplaySource::ReplaySource(const ReplayConfig& config, std::size_t queue_frames,
       clock_{config.rate} {
   if (config.folder.empty()) throw InputError("replay.folder: which recording shall be played?");
   sequences_ = experiment::OpenRgbdSequences(config.folder, load);
+  for (const experiment::RgbdSequence& sequence : sequences_) {
+    health_.notes.insert(health_.notes.end(), sequence.notes.begin(), sequence.notes.end());
+  }
   offset_ns_ = std::llround(config.stamp_offset_s * 1e9);
   health_.device = config.folder.filename().string();
   health_.model = "recording";
@@ -62,6 +65,10 @@ SourceHealth ReplaySource::Health() const {
   if (queue_.drained()) {
     health.state = SourceState::kEnded;
     health.reason = "the recording has ended";
+    if (health.frames_failed > 0) {
+      health.reason += "; " + std::to_string(health.frames_failed) +
+                       " frames could not be read, the first: " + first_failure_;
+    }
   }
   return health;
 }
@@ -146,6 +153,7 @@ bool ReplaySource::PlayFrame(const experiment::RgbdSequence& sequence, std::size
 
 void ReplaySource::CountFailure(const std::string& reason) {
   const std::lock_guard lock(mutex_);
+  if (health_.frames_failed == 0) first_failure_ = reason;
   ++health_.frames_failed;
   health_.last_failure = reason;
 }

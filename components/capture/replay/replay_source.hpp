@@ -56,6 +56,7 @@ class ReplaySource : public FrameSource {
   bool stop_ = false;
   bool started_ = false;
   SourceHealth health_;
+  std::string first_failure_;  ///< why the first of `frames_failed` was not used
   std::thread thread_;
 };
 

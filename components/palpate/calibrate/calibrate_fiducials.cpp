@@ -12,9 +12,9 @@
 #include "components/palpate/calibrate/image_samples.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/images/open_images.hpp"
 #include "components/perception/markers/fiducial_detector.hpp"
 #include "components/perception/registered_frame.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
@@ -98,7 +98,7 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
   for (const std::string& name : config.names) IndexOf(name, markers);
   points.recordings = RecordingsWithImages(options, experiment);
   for (const experiment::Recording* recording : points.recordings) {
-    const auto images = experiment::OpenRecordingImages(*recording, app::LoadYaml);
+    const auto images = OpenImages(*recording);
     Look(SamplesOf(*recording, images, *model, ParseCableInput(options.cable_input)), config,
          markers, !options.assignment.empty(), &points);
   }

@@ -15,7 +15,7 @@
 #include "components/palpate/calibrate/image_samples.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
-#include "libs/app/yaml.hpp"
+#include "components/palpate/images/open_images.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -67,8 +67,8 @@ void Run(const std::vector<ImageSample>& samples, const perception::Config& perc
   found->frames = SeeClouds(samples, perception, model->body(), expected, &left_out);
   if (found->frames.empty()) {
     throw RunError("perception sees the robot in no image (" + left_out.front() +
-                   "): give a more accurate --camera-pose, or the robot's colour, --set "
-                   "perception.robot_color_rgb=[r, g, b]");
+                   "). Where the images are sound, give a more accurate --camera-pose, or the "
+                   "robot's colour, --set perception.robot_color_rgb=[r, g, b]");
   }
   for (const std::string& line : left_out) fmt::print(stderr, "excluded: {}\n", line);
   found->fit = calibration::CalibrateFromClouds(*model, found->frames, ToTransform(start), clouds);
@@ -128,7 +128,7 @@ ImageCalibration FitImages(const CalibrateOptions& options,
   sequences.reserve(found.recordings.size());
   std::vector<ImageSample> samples;
   for (const Recording* recording : found.recordings) {
-    sequences.push_back(experiment::OpenRecordingImages(*recording, app::LoadYaml));
+    sequences.push_back(OpenImages(*recording));
     for (ImageSample& sample :
          SamplesOf(*recording, sequences.back(), *model, ParseCableInput(options.cable_input))) {
       samples.push_back(std::move(sample));

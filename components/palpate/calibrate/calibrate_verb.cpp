@@ -14,6 +14,7 @@
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
+#include "components/palpate/check_labels.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -84,6 +85,10 @@ robot::CalibrationFile Find(const std::filesystem::path& folder, const Calibrate
   const auto experiment = experiment::ReadExperiment(folder, app::LoadYaml);
   const std::vector<int> materials = MaterialsOf(PartsOf(options, model->body()), model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
+  if (!unlabelled) {
+    CheckMarkerLabels(experiment,
+                      robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml));
+  }
   if (options.fit_depth_bias && options.no_depth_bias) {
     throw InputError("--fit-depth-bias and --no-depth-bias exclude each other: give one");
   }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "libs/app/yaml.hpp"
+#include "components/palpate/images/open_images.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::command {
@@ -40,8 +40,7 @@ const experiment::RgbdSequence& SurfaceImages::SequenceOf(int recording) {
   const auto known = sequences_.find(recording);
   if (known != sequences_.end()) return known->second;
   return sequences_
-      .emplace(recording, experiment::OpenRecordingImages(experiment_.recordings[At(recording)],
-                                                          app::LoadYaml))
+      .emplace(recording, OpenImages(experiment_.recordings[At(recording)]))
       .first->second;
 }
 

@@ -12,9 +12,9 @@
 
 #include "components/calibration/recording_phase.hpp"
 #include "components/force_estimation/recording_frames.hpp"
+#include "components/palpate/images/open_images.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "components/perception/predicted_surface.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/core/index.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
@@ -84,7 +84,7 @@ ShapeReplay::FirstFrames ShapeReplay::EstimateDepthBias(const Recording& recordi
   const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
   if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return {};
   const ReplayCount count =
-      Run({recording, experiment::OpenRecordingImages(recording, app::LoadYaml),
+      Run({recording, OpenImages(recording),
            std::get<Eigen::Isometry3d>(pose)},
           frames, [](const ForceEstimate&) {});
   bias_recordings_[epoch_] = &recording;
@@ -100,7 +100,7 @@ std::vector<ShapeReplay::BiasRecording> ShapeReplay::JudgeBiasRecordings() const
 }
 
 ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate& take) {
-  auto images = experiment::OpenRecordingImages(recording, app::LoadYaml);
+  auto images = OpenImages(recording);
   const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
   if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
     return RefuseEach(images, missing->reason, take);

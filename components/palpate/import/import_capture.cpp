@@ -16,15 +16,10 @@ using experiment::TimeWindow;
 
 namespace {
 
-CapturedMarkers ReadCapture(const ImportOptions& options) {
-  const std::string extension = options.file.extension().string();
-  if (extension == ".csv") return experiment::ReadCapturedCsv(options.file);
-  if (extension != ".c3d" && extension != ".C3D") {
-    throw InputError(SourceLocation{options.file.string()}, "only .c3d and .csv are imported");
-  }
+CapturedMarkers ReadFile(const ImportOptions& options) {
   experiment::C3dOptions c3d_options;
   if (!options.unit.empty()) c3d_options.unit_if_absent = options.unit;
-  return experiment::ReadC3d(options.file, c3d_options);
+  return experiment::ReadCapture(options.file, c3d_options);
 }
 
 std::optional<TimeWindow> Shifted(std::optional<TimeWindow> window, double offset_s) {
@@ -63,7 +58,7 @@ void CheckWindows(const experiment::Recording& recording) {
 }  // namespace
 
 CapturedMarkers ReadAndEdit(const ImportOptions& options) {
-  CapturedMarkers captured = ReadCapture(options);
+  CapturedMarkers captured = ReadFile(options);
   const auto new_names = ParseRenames(options.rename);
   experiment::RenameMarkers(new_names, captured);
   if (!options.markers.empty()) {

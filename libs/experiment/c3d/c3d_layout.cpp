@@ -9,6 +9,7 @@
 #include <set>
 
 #include "libs/core/text.hpp"
+#include "libs/experiment/capture/capture_text.hpp"
 
 namespace palpate::experiment {
 
@@ -36,12 +37,15 @@ std::size_t FindParameters(const C3dBytes& bytes) {
   return OffsetOfBlock(block);
 }
 
-// A count that header and parameters both hold; where both do they must agree.
+// A count that header and parameters both hold; where both do they must agree. 0 is none.
 std::size_t AgreedCount(const C3dBytes& bytes, const C3dParameters& parameters,
                         const std::string& name, std::size_t header_offset) {
   const std::size_t in_header = bytes.Uint16(header_offset);
   const std::optional<double> in_parameters = parameters.Number(name);
-  if (in_parameters && *in_parameters != static_cast<double>(in_header)) {
+  if (in_header == 0 && in_parameters && *in_parameters > 0.0) {
+    return static_cast<std::size_t>(*in_parameters);
+  }
+  if (in_parameters && *in_parameters != 0.0 && *in_parameters != static_cast<double>(in_header)) {
     bytes.Refuse(parameters.OffsetOf(name), name + " is " + FormatNumber(*in_parameters) +
                                                 ", the header has " + std::to_string(in_header));
   }
@@ -95,7 +99,8 @@ std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) 
 
 double ReadScale(const C3dBytes& bytes, const C3dParameters& parameters) {
   const double in_header = bytes.Real(kScale);
-  const double scale = parameters.Number("POINT:SCALE").value_or(in_header);
+  const double in_parameters = parameters.Number("POINT:SCALE").value_or(0.0);
+  const double scale = in_parameters == 0.0 ? in_header : in_parameters;
   if (!std::isfinite(scale) || scale == 0.0)
     bytes.Refuse(kScale, "the scale of points is unusable");
   if (std::signbit(scale) != std::signbit(in_header)) {
@@ -105,7 +110,8 @@ double ReadScale(const C3dBytes& bytes, const C3dParameters& parameters) {
 }
 
 double ReadRate(const C3dBytes& bytes, const C3dParameters& parameters) {
-  const double rate_Hz = parameters.Number("POINT:RATE").value_or(bytes.Real(kRate));
+  const double in_parameters = parameters.Number("POINT:RATE").value_or(0.0);
+  const double rate_Hz = in_parameters > 0.0 ? in_parameters : bytes.Real(kRate);
   if (!std::isfinite(rate_Hz) || rate_Hz <= 0.0) bytes.Refuse(kRate, "the frame rate is unusable");
   return rate_Hz;
 }
@@ -114,14 +120,12 @@ double ReadUnit(const C3dBytes& bytes, const C3dParameters& parameters, const C3
   const std::vector<std::string> units = parameters.Texts("POINT:UNITS");
   const bool named = !units.empty() && !units.front().empty();
   if (!named && !options.unit_if_absent) {
-    bytes.Refuse(0, "the file does not say its unit of length (POINT:UNITS); give it");
+    bytes.Refuse(0, "the file does not say its unit of length (POINT:UNITS); give it with --unit");
   }
   const std::string unit = named ? units.front() : *options.unit_if_absent;
-  if (unit == "m" || unit == "meter" || unit == "meters") return 1.0;
-  if (unit == "cm") return 1e-2;
-  if (unit == "mm") return 1e-3;
+  if (const std::optional<double> metres = MetresPerUnit(unit)) return *metres;
   bytes.Refuse(parameters.OffsetOf("POINT:UNITS"),
-               "unit of length '" + unit + "' is not known (m, cm or mm)");
+               "unit of length '" + Excerpt(unit) + "' is not known (m, cm or mm)");
 }
 
 std::string WithoutBlanks(std::string text) {
@@ -129,24 +133,64 @@ std::string WithoutBlanks(std::string text) {
   return text;
 }
 
-std::vector<std::string> ReadLabels(const C3dBytes& bytes, const C3dParameters& parameters,
-                                    std::size_t count) {
-  std::vector<std::string> labels = parameters.Texts("POINT:LABELS");
-  for (int part = 2; parameters.Has("POINT:LABELS" + std::to_string(part)); ++part) {
-    const auto more = parameters.Texts("POINT:LABELS" + std::to_string(part));
-    labels.insert(labels.end(), more.begin(), more.end());
+// A list that may go on in parameters NAME2, NAME3, ..., its texts without blanks.
+std::vector<std::string> LongList(const C3dParameters& parameters, const std::string& name) {
+  std::vector<std::string> texts = parameters.Texts(name);
+  for (int part = 2; parameters.Has(name + std::to_string(part)); ++part) {
+    const auto more = parameters.Texts(name + std::to_string(part));
+    texts.insert(texts.end(), more.begin(), more.end());
   }
+  for (std::string& text : texts) text = WithoutBlanks(text);
+  return texts;
+}
+
+std::vector<std::string> ReadLabels(const C3dParameters& parameters, std::size_t count) {
+  std::vector<std::string> labels = LongList(parameters, "POINT:LABELS");
   labels.resize(count);
-  std::set<std::string> seen;
   for (std::size_t i = 0; i < count; ++i) {
-    labels[i] = WithoutBlanks(labels[i]);
     if (labels[i].empty()) labels[i] = std::string(kUnlabelledPrefix) + std::to_string(i + 1);
-    if (!seen.insert(labels[i]).second) {
-      bytes.Refuse(parameters.OffsetOf("POINT:LABELS"),
-                   "label '" + labels[i] + "' is given to two points");
-    }
   }
   return labels;
+}
+
+// ANGLES has its unit in ANGLE_UNITS, and so on.
+bool HoldsLengths(const C3dParameters& parameters, const std::string& type) {
+  const std::string stem = type.ends_with('S') ? type.substr(0, type.size() - 1) : type;
+  const std::string name = "POINT:" + stem + "_UNITS";
+  if (!parameters.Has(name)) return type == "MODELED_MARKERS";
+  const std::vector<std::string> units = parameters.Texts(name);
+  return !units.empty() && MetresPerUnit(units.front()).has_value();
+}
+
+// Model outputs are stored as points. Parameters named after their types list the labels of those
+// that are no positions.
+std::set<std::string> LabelsOfOtherQuantities(const C3dParameters& parameters) {
+  std::set<std::string> types = {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"};
+  for (std::string& type : LongList(parameters, "POINT:TYPE_GROUPS")) {
+    std::transform(type.begin(), type.end(), type.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const bool names_no_type = type.empty() || type.ends_with("UNITS") || type == "LABELS";
+    if (!names_no_type) types.insert(type);
+  }
+  std::set<std::string> labels;
+  for (const std::string& type : types) {
+    if (!parameters.Has("POINT:" + type) || HoldsLengths(parameters, type)) continue;
+    const std::vector<std::string> of_type = LongList(parameters, "POINT:" + type);
+    labels.insert(of_type.begin(), of_type.end());
+  }
+  labels.erase("");
+  return labels;
+}
+
+void MarkOtherQuantities(const C3dParameters& parameters, C3dLayout* layout) {
+  const std::set<std::string> others = LabelsOfOtherQuantities(parameters);
+  std::vector<std::string> left_out;
+  for (const std::string& label : layout->labels) {
+    layout->is_length.push_back(!others.contains(label));
+    if (!layout->is_length.back()) left_out.push_back(label);
+  }
+  if (left_out.empty()) return;
+  layout->notes.push_back("left out, as model outputs that are no positions: " + Listed(left_out));
 }
 
 std::size_t FindData(const C3dBytes& bytes, const C3dParameters& parameters) {
@@ -170,7 +214,8 @@ C3dLayout ReadC3dLayout(C3dBytes& bytes, const C3dOptions& options) {
   layout.scale = std::abs(scale);
   layout.rate_Hz = ReadRate(bytes, parameters);
   layout.metres_per_unit = ReadUnit(bytes, parameters, options);
-  layout.labels = ReadLabels(bytes, parameters, layout.point_count);
+  layout.labels = ReadLabels(parameters, layout.point_count);
+  MarkOtherQuantities(parameters, &layout);
   bytes.Require(layout.data_offset, layout.frame_count * layout.frame_size(),
                 std::to_string(layout.frame_count) + " frames");
   return layout;

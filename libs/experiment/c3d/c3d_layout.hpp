@@ -25,11 +25,17 @@ struct C3dLayout {
   double scale = 0.0;                       ///< > 0, file units per integer step and residual step
   double rate_Hz = 0.0;
   double metres_per_unit = 1.0;
-  std::vector<std::string> labels;  ///< point_count of them, all different
+  std::vector<std::string> labels;  ///< point_count of them; two may be equal
+  std::vector<bool> is_length;      ///< [point_count] false: an angle, a force, ...
+  std::vector<std::string> notes;
 
   std::size_t value_size() const { return real_points ? 4 : 2; }
   std::size_t frame_size() const {
     return (4 * point_count + analog_values_per_frame) * value_size();
+  }
+  /// Of the four words of a point in a frame, both counted from 0.
+  std::size_t OffsetOf(std::size_t frame, std::size_t point) const {
+    return data_offset + frame * frame_size() + point * 4 * value_size();
   }
 };
 

@@ -13,6 +13,8 @@ namespace palpate::experiment {
 namespace {
 
 constexpr std::size_t kSectionHeaderSize = 4;  // two bytes unused, block count, processor
+constexpr std::size_t kBlockSize = 512;
+constexpr std::size_t kHeaderDataBlock = 16;  // offset of the number of the first block of data
 
 std::string UpperCase(std::string_view text) {
   std::string upper(text);
@@ -38,9 +40,22 @@ C3dParameters::C3dParameters(C3dBytes& bytes, std::size_t offset) : bytes_(bytes
                                  " is not known (84 Intel, 85 DEC, 86 SGI/MIPS)");
   }
   bytes.set_processor(static_cast<C3dProcessor>(processor));
+  const std::size_t end = EndOfSection(offset);
   std::size_t next = offset + kSectionHeaderSize;
-  while (next != 0) next = ReadItem(next);
+  while (next != 0 && next < end) next = ReadItem(next);
+  NameUnnamedPointGroup();
   NameEntries();
+}
+
+// Where the section must have ended: behind its blocks, or where the data begin, whichever is
+// farther, as either number may be wrong; at the end of the file where neither is told.
+std::size_t C3dParameters::EndOfSection(std::size_t offset) const {
+  const std::size_t blocks = bytes_.Byte(offset + 2);
+  const std::size_t data_block = bytes_.Uint16(kHeaderDataBlock);
+  const std::size_t by_count = blocks == 0 ? 0 : offset + blocks * kBlockSize;
+  const std::size_t by_data = data_block == 0 ? 0 : (data_block - 1) * kBlockSize;
+  const std::size_t end = std::max(by_count, by_data);
+  return end <= offset ? bytes_.size() : end;
 }
 
 // Reads the group or parameter at `offset`; returns where the next begins, 0 after the last.
@@ -54,7 +69,6 @@ std::size_t C3dParameters::ReadItem(std::size_t offset) {
   const std::size_t link = offset + 2 + name_size;
   const std::size_t distance = bytes_.Uint16(link);
   if (distance == 1) bytes_.Refuse(link, "the next parameter overlaps this one");
-  if (group == 0) bytes_.Refuse(offset + 1, "parameter '" + name + "' belongs to group 0");
   if (group < 0) {
     groups_[-group] = name;
   } else {
@@ -83,23 +97,41 @@ C3dParameters::Entry C3dParameters::ReadValue(std::size_t offset) const {
   return entry;
 }
 
+// A file may lack the record of a group. POINT shows itself: no other group has DATA_START.
+void C3dParameters::NameUnnamedPointGroup() {
+  for (const auto& [number, name] : groups_) {
+    if (name == "POINT") return;
+  }
+  for (const RawEntry& raw : raw_entries_) {
+    if (raw.name == "DATA_START" && !groups_.contains(raw.group)) groups_[raw.group] = "POINT";
+  }
+}
+
 void C3dParameters::NameEntries() {
   for (const RawEntry& raw : raw_entries_) {
     const auto group = groups_.find(raw.group);
-    if (group == groups_.end()) {
-      bytes_.Refuse(raw.value.offset, "parameter '" + raw.name + "' belongs to group " +
-                                          std::to_string(raw.group) + ", which is not there");
-    }
-    const std::string name = group->second + ":" + raw.name;
-    if (!entries_.emplace(name, raw.value).second) {
-      bytes_.Refuse(raw.value.offset, "parameter " + name + " is given twice");
-    }
+    if (group == groups_.end()) continue;
+    const auto [entry, is_new] = entries_.emplace(group->second + ":" + raw.name, raw.value);
+    if (!is_new && !SameValues(entry->second, raw.value)) entry->second.ambiguous = true;
   }
+}
+
+bool C3dParameters::SameValues(const Entry& a, const Entry& b) const {
+  const auto size = [](const Entry& entry) {
+    return entry.count * static_cast<std::size_t>(std::abs(static_cast<int>(entry.type)));
+  };
+  return a.type == b.type && a.dimensions == b.dimensions &&
+         bytes_.Text(a.offset, size(a)) == bytes_.Text(b.offset, size(b));
 }
 
 const C3dParameters::Entry* C3dParameters::Find(const std::string& name) const {
   const auto entry = entries_.find(name);
-  return entry == entries_.end() ? nullptr : &entry->second;
+  if (entry == entries_.end()) return nullptr;
+  if (entry->second.ambiguous) {
+    bytes_.Refuse(entry->second.offset,
+                  "parameter " + name + " is given twice, with different values");
+  }
+  return &entry->second;
 }
 
 std::size_t C3dParameters::OffsetOf(const std::string& name) const {

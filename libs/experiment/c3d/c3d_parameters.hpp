@@ -17,12 +17,15 @@ namespace palpate::experiment {
 /// The parameter section of a C3D file: named values, e.g. POINT:RATE. Names compare without case.
 class C3dParameters {
  public:
-  /// Reads the section that begins at `offset` and sets the processor of `bytes` from it. Throws
-  /// InputError with the byte offset for an unknown processor, a parameter of an unknown group or
-  /// type, or one that does not end before the file does.
+  /// Reads the section that begins at `offset` and sets the processor of `bytes` from it. The last
+  /// parameter's link may lead anywhere outside of the section. A parameter of a group without a
+  /// record is passed over, but for those that only POINT has. Throws InputError with the byte
+  /// offset for an unknown processor or type, or a parameter that does not end before the file does.
   C3dParameters(C3dBytes& bytes, std::size_t offset);
 
   bool Has(const std::string& name) const { return entries_.contains(name); }
+  /// Names that are given twice with different values are refused when they are asked for.
+  ///
   /// All values of a numeric parameter. Integers are unsigned 16-bit, which is how every count is
   /// meant. Empty where the parameter is absent; InputError where it is text.
   std::vector<double> Numbers(const std::string& name) const;
@@ -41,6 +44,7 @@ class C3dParameters {
     std::vector<std::size_t> dimensions;
     std::size_t count = 0;   // product of the dimensions
     std::size_t offset = 0;  // of the values
+    bool ambiguous = false;  // another parameter of this name has other values
   };
 
   struct RawEntry {
@@ -51,7 +55,10 @@ class C3dParameters {
 
   std::size_t ReadItem(std::size_t offset);
   Entry ReadValue(std::size_t offset) const;
+  std::size_t EndOfSection(std::size_t offset) const;
+  void NameUnnamedPointGroup();
   void NameEntries();
+  bool SameValues(const Entry& a, const Entry& b) const;
   const Entry* Find(const std::string& name) const;
 
   const C3dBytes& bytes_;

@@ -9,6 +9,7 @@
 #include "libs/experiment/cloud/point_cloud.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/experiment/folders.hpp"
+#include "libs/rgbd/color_image.hpp"
 #include "libs/rgbd/png.hpp"
 
 namespace palpate::experiment {
@@ -60,6 +61,19 @@ RgbdSequence OpenCloudFolder(const fs::path& folder, const ConfigLoader& load) {
   return OpenRecordingImages(recording, load);
 }
 
+void FindCloudConvention(RgbdSequence* sequence) {
+  constexpr std::size_t kMostLooks = 5;  // the first clouds of a recording may be empty
+  for (std::size_t k = 0; k < std::min(kMostLooks, sequence->frames.size()); ++k) {
+    const fs::path& file = sequence->frames[k].cloud;
+    if (const auto found = ConventionOf(ReadPointCloud(file))) {
+      sequence->clouds = *found;
+      const std::string note = ToText(*found);
+      if (!note.empty()) sequence->notes.push_back(file.string() + ": " + note);
+      return;
+    }
+  }
+}
+
 bool HoldsImages(const Recording& recording) {
   return !recording.depth_images.empty() || !recording.clouds.empty();
 }
@@ -69,7 +83,9 @@ bool HoldsImages(const Recording& recording) {
 void RgbdSequence::Read(std::size_t index, rgbd::RgbdFrame* frame) const {
   const FrameFiles& files = frames.at(index);
   if (!files.cloud.empty()) {
-    *frame = FrameFromCloud(ReadPointCloud(files.cloud), camera);
+    PointCloud cloud = ReadPointCloud(files.cloud);
+    ToOpticalFrame(clouds, &cloud);
+    *frame = FrameFromCloud(cloud, camera);
     frame->stamp_ns = files.t_ns;
     return;
   }
@@ -80,7 +96,7 @@ void RgbdSequence::Read(std::size_t index, rgbd::RgbdFrame* frame) const {
     frame->color = {};
     return;
   }
-  frame->color = rgbd::ReadColorPng(files.color);
+  frame->color = rgbd::ReadColorImage(files.color);
   if (camera.color.width_px == 0) {
     throw InputError(SourceLocation{files.color.string()},
                      "is a colour image, and camera.yaml has no 'color'");
@@ -102,6 +118,7 @@ RgbdSequence OpenRecordingImages(const Recording& recording, const ConfigLoader&
   for (const StampedFile& cloud : recording.clouds) {
     sequence.frames.push_back({.t_ns = cloud.t_ns, .depth = {}, .color = {}, .cloud = cloud.file});
   }
+  FindCloudConvention(&sequence);
   return sequence;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/experiment/cloud/cloud_convention.hpp"
 #include "libs/experiment/recording.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
@@ -29,6 +30,8 @@ struct RgbdSequence {
   rgbd::RgbdCamera camera;
   std::vector<FrameFiles> frames;  ///< by rising time, at least one
   std::size_t unpaired = 0;        ///< TUM: depth images without a colour image near in time
+  CloudConvention clouds;          ///< in which all clouds are read
+  std::vector<std::string> notes;  ///< what was assumed, for a person
 
   /// Buffers of `frame` are used again. Throws InputError, naming the file, where an image cannot
   /// be read or has another size than its camera.
@@ -42,8 +45,9 @@ struct RgbdSequence {
 std::vector<RgbdSequence> OpenRgbdSequences(const std::filesystem::path& folder,
                                             const ConfigLoader& load);
 
-/// depth/ and color/ (same name: one frame set), else clouds/, and camera.yaml of a recording.
-/// Throws InputError where there are none, or a colour image has no depth image.
+/// depth/ and color/ (same name: one frame set), else clouds/, and camera.yaml of a recording. The
+/// first cloud that holds points shows the convention of all. Throws InputError where there are no
+/// images, or a colour image has no depth image.
 RgbdSequence OpenRecordingImages(const Recording& recording, const ConfigLoader& load);
 
 /// A folder of the TUM RGB-D benchmark (J. Sturm et al., A benchmark for the evaluation of RGB-D

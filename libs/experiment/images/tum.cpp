@@ -7,9 +7,11 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
 #include "libs/experiment/cloud/scalar.hpp"
 #include "libs/experiment/folders.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
+#include "libs/experiment/stamped_files.hpp"
 
 namespace palpate::experiment {
 
@@ -17,23 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kLargestGap_ns = 20'000'000;
-constexpr std::uint64_t kLargestTime_s = 9'000'000'000;
-
-/// "1305031453.374112" in ns, without the rounding of a double.
-bool ParseSeconds_ns(std::string_view text, std::int64_t* t_ns) {
-  const std::size_t dot = text.find('.');
-  std::uint64_t seconds = 0;
-  if (!ParseCount(text.substr(0, dot), kLargestTime_s, &seconds)) return false;
-  std::string digits(dot == std::string_view::npos ? "" : text.substr(dot + 1));
-  if (digits.size() > 9) digits.resize(9);
-  digits.resize(9, '0');
-  std::uint64_t fraction_ns = 0;
-  if (!ParseCount(digits, kSecond_ns - 1, &fraction_ns)) return false;
-  *t_ns = static_cast<std::int64_t>(seconds) * kSecond_ns + static_cast<std::int64_t>(fraction_ns);
-  return true;
-}
 
 /// depth.txt or rgb.txt: lines "time_s file", # begins a comment.
 std::vector<StampedFile> ReadList(const fs::path& list) {
@@ -48,7 +34,9 @@ std::vector<StampedFile> ReadList(const fs::path& list) {
     const SourceLocation where{list.string(), number, 1};
     StampedFile file;
     if (!ParseSeconds_ns(time, &file.t_ns)) {
-      throw InputError(where, "'" + std::string(time.substr(0, 30)) + "' is no time in seconds");
+      const bool other = time.find_first_of(",;") != std::string_view::npos;
+      throw InputError(where, "'" + Excerpt(time) + "' is no time in seconds" +
+                                  (other ? "; a blank separates the time from the file" : ""));
     }
     if (name.empty() || !TakeWord(&line).empty()) {
       throw InputError(where, "a line is a time and a file name");

@@ -112,7 +112,12 @@ CellKind Find(std::span<const NumberedKind> kinds, int64_t type) {
 
 }  // namespace
 
-CellKind VtkCellKind(int64_t type) { return Find(kVtkKinds, type); }
+CellKind VtkCellKind(int64_t type, size_t node_count) {
+  constexpr int64_t kTet4 = 10, kTet10 = 24, kLagrangeTet = 71;
+  if (type == kLagrangeTet && node_count == 4) return Find(kVtkKinds, kTet4);
+  if (type == kLagrangeTet && node_count == 10) return Find(kVtkKinds, kTet10);
+  return Find(kVtkKinds, type);
+}
 
 CellKind GmshCellKind(int64_t type) { return Find(kGmshKinds, type); }
 

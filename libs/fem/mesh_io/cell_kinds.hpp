@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace palpate::fem::mesh_io {
@@ -21,8 +22,9 @@ struct CellKind {
   const char* name = "unknown";  ///< for messages
 };
 
-/// By the numbers of vtkCellType.h.
-CellKind VtkCellKind(int64_t type);
+/// By the numbers of vtkCellType.h. A Lagrange tetrahedron is one of 4 or 10 nodes where it has
+/// as many; its nodes have the same order.
+CellKind VtkCellKind(int64_t type, size_t node_count);
 
 /// By the numbers of Gmsh's GmshDefines.h.
 CellKind GmshCellKind(int64_t type);

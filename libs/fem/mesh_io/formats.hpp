@@ -14,5 +14,7 @@ namespace palpate::fem::mesh_io {
 void ReadVtu(std::string_view bytes, MeshBuilder* builder);
 void ReadLegacyVtk(std::string_view bytes, MeshBuilder* builder);
 void ReadGmsh(std::string_view bytes, MeshBuilder* builder);
+void ReadAbaqus(std::string_view bytes, MeshBuilder* builder);
+void ReadMedit(std::string_view bytes, MeshBuilder* builder);
 
 }  // namespace palpate::fem::mesh_io

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
+#include <sstream>
 
+#include "libs/core/text.hpp"
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
@@ -22,22 +25,18 @@ void GmshReader::Read() {
   if (!nodes_read_ || !elements_read_) {
     scanner_.Fail(std::string("there is no section ") + (nodes_read_ ? "$Elements" : "$Nodes"));
   }
-  builder_->SetGroupNames(std::move(group_names_));
 }
 
 void GmshReader::ReadFormat() {
   if (scanner_.Token("$MeshFormat") != "$MeshFormat") {
     scanner_.Fail("is no Gmsh file: it must begin with $MeshFormat");
   }
-  const std::string_view version = scanner_.Token("the version");
-  if (version != "2.2" && version != "4.1") {
-    scanner_.Fail("Gmsh format '" + std::string(version) + "' is not read (only 2.2 and 4.1)");
-  }
-  version_41_ = version == "4.1";
+  version_ = ReadVersion();
   const bool binary = scanner_.TextInteger(0, 1, "the file type") == 1;
   const int64_t size = scanner_.TextInteger(4, 8, "the data size");
-  if (size != 8 && !(version_41_ && size == 4)) scanner_.Fail("data size must be 8");
+  if (size != 8 && !(version_ == Version::k41 && size == 4)) scanner_.Fail("data size must be 8");
   size_type_ = size == 8 ? ScalarType::kUInt64 : ScalarType::kUInt32;
+  if (version_ == Version::k41) tag_type_ = size_type_;
   if (binary) {
     scanner_.Line("the byte order");
     int one = 0;
@@ -49,21 +48,33 @@ void GmshReader::ReadFormat() {
     scanner_.Fail("expected $EndMeshFormat");
 }
 
+/// Netgen writes 2.2 as "2.000000", Gmsh 4.0 as "4".
+GmshReader::Version GmshReader::ReadVersion() {
+  const std::string_view version = scanner_.Token("the version");
+  double number = 0.0;
+  if (ParseFinite(version, &number)) {
+    if (number >= 2.0 && number < 3.0) return Version::k2;
+    if (number == 4.0) return Version::k40;
+    if (number == 4.1) return Version::k41;
+  }
+  scanner_.Fail("Gmsh format '" + Excerpt(version) + "' is not read (only 2.0 to 2.2, 4.0, 4.1)");
+}
+
 void GmshReader::ReadSection(std::string_view name) {
   const std::string end = "$End" + std::string(name);
   if (name == "PhysicalNames") {
     ReadPhysicalNames();
-  } else if (name == "Entities" && version_41_) {
-    ReadEntities41();
-  } else if (name == "PartitionedEntities") {
-    scanner_.Fail("a mesh in partitions is not read: save it in one piece");
+  } else if (name == "Entities" && version_ != Version::k2) {
+    ReadEntities4();
+  } else if (name == "PartitionedEntities" && version_ != Version::k2) {
+    ReadPartitionedEntities4();
   } else if (name == "Nodes") {
     if (nodes_read_) scanner_.Fail("a second section $Nodes");
-    version_41_ ? ReadNodes41() : ReadNodes22();
+    version_ == Version::k2 ? ReadNodes2() : ReadNodes4();
     FinishNodes();
   } else if (name == "Elements") {
     if (elements_read_ || !nodes_read_) scanner_.Fail("$Elements must follow $Nodes, once");
-    version_41_ ? ReadElements41() : ReadElements22();
+    version_ == Version::k2 ? ReadElements2() : ReadElements4();
     elements_read_ = true;
   } else {
     scanner_.SkipPast(end);
@@ -75,14 +86,21 @@ void GmshReader::ReadSection(std::string_view name) {
 void GmshReader::ReadPhysicalNames() {
   constexpr int64_t kVolume = 3;
   const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of physical names");
+  scanner_.Line("the physical names");
   for (int64_t k = 0; k < count; ++k) {
-    const int64_t dimension = scanner_.TextInteger(0, 3, "a dimension");
-    const int64_t tag = scanner_.TextInteger(1, kMaxCount, "a physical tag");
-    const std::string_view rest = scanner_.Line("a physical name");
-    const size_t open = rest.find('"');
-    const size_t close = rest.rfind('"');
+    const std::string_view line = scanner_.Line("a physical name");
+    const size_t open = line.find('"');
+    const size_t close = line.rfind('"');
     if (open == std::string_view::npos || close == open) scanner_.Fail("a name stands in quotes");
-    if (dimension == kVolume) volume_names_[tag] = rest.substr(open + 1, close - open - 1);
+    // [dimension] tag "name"; the dimension is missing before 2.1.
+    int64_t dimension = kVolume, tag = 0;
+    std::istringstream numbers{std::string(line.substr(0, open))};
+    std::vector<int64_t> values{std::istream_iterator<int64_t>(numbers), {}};
+    if (values.empty() || values.size() > 2) scanner_.Fail("expected a dimension and a tag");
+    if (values.size() == 2) dimension = values.front();
+    tag = values.back();
+    if (tag < 1 || tag > kMaxCount) scanner_.Fail("a physical tag must be 1 or more");
+    if (dimension == kVolume) volume_names_[tag] = line.substr(open + 1, close - open - 1);
   }
 }
 
@@ -125,7 +143,7 @@ int GmshReader::NodeCountOf(int64_t type) {
   return kind.node_count;
 }
 
-void GmshReader::ReadElement(int64_t type, ScalarType tag_type, int group) {
+void GmshReader::ReadElement(int64_t type, ScalarType tag_type, const Groups& groups) {
   std::array<int64_t, 32> nodes{};
   const CellKind kind = GmshCellKind(type);
   const auto count = static_cast<size_t>(kind.node_count);
@@ -135,20 +153,15 @@ void GmshReader::ReadElement(int64_t type, ScalarType tag_type, int group) {
   if (kind.role == CellRole::kLowerDimension) return;
   // Gmsh: ... 23 13; VTK: ... 13 23.
   if (kind.role == CellRole::kTet10) std::swap(nodes[8], nodes[9]);
-  builder_->AddTet(kind.role == CellRole::kTet4 ? ElementType::kTet4 : ElementType::kTet10,
-                   std::span(nodes).first(count), group);
+  const auto element = kind.role == CellRole::kTet4 ? ElementType::kTet4 : ElementType::kTet10;
+  const int tet = builder_->AddTet(element, std::span(nodes).first(count));
+  for (const int group : groups) builder_->AddToGroup(group, tet);
 }
 
 int GmshReader::GroupOf(int64_t physical_tag) {
-  if (physical_tag == 0) return -1;
-  const auto [entry, is_new] =
-      group_of_physical_.try_emplace(physical_tag, static_cast<int>(group_names_.size()));
-  if (is_new) {
-    const auto name = volume_names_.find(physical_tag);
-    group_names_.push_back(name == volume_names_.end() ? std::to_string(physical_tag)
-                                                       : name->second);
-  }
-  return entry->second;
+  const auto name = volume_names_.find(physical_tag);
+  return builder_->GroupNamed(name == volume_names_.end() ? std::to_string(physical_tag)
+                                                          : name->second);
 }
 
 int64_t GmshReader::ReadSize(const char* what) {
@@ -157,6 +170,10 @@ int64_t GmshReader::ReadSize(const char* what) {
 
 int64_t GmshReader::ReadInt(const char* what) {
   return scanner_.Integer(ScalarType::kInt32, -kMaxCount, kMaxCount, what);
+}
+
+void GmshReader::BeginNumbers(const char* what) {
+  if (scanner_.binary()) scanner_.Line(what);
 }
 
 void GmshReader::CheckRoom(int64_t count, size_t least_binary_bytes, const char* what) {

@@ -13,8 +13,9 @@
 
 namespace palpate::fem::mesh_io {
 
-/// What the sections of a .msh file pass on to each other, and what both versions share.
-/// Format: Gmsh reference manual, "MSH file format" (4.1) and "MSH file format version 2".
+/// What the sections of a .msh file pass on to each other, and what its versions share.
+/// Format: Gmsh reference manual, "MSH file format" (4.1, 4.0 in that of Gmsh 4.0) and "MSH file
+/// format version 2" (2.0 to 2.2).
 class GmshReader {
  public:
   GmshReader(std::string_view bytes, MeshBuilder* builder)
@@ -23,57 +24,64 @@ class GmshReader {
   void Read();
 
  private:
+  enum class Version { k2, k40, k41 };
+  using Groups = std::vector<int>;  ///< indices of the builder's groups
+
   struct Node {
     int64_t tag = 0;
     std::array<double, 3> position{};
   };
 
   void ReadFormat();
+  Version ReadVersion();
   void ReadSection(std::string_view name);
   void ReadPhysicalNames();
 
-  void ReadNodes22();
-  void ReadElements22();
-  int64_t ReadElementBlock22(int64_t at_most);
+  void ReadNodes2();
+  void ReadElements2();
+  int64_t ReadElementBlock2(int64_t at_most);
 
-  void ReadEntities41();
-  void ReadVolumeEntity41();
-  void SkipEntity41(int dimension);
-  int64_t ReadPhysicalTag41();
-  void ReadNodes41();
-  void ReadNodeBlock41(int64_t at_most);
-  void ReadElements41();
-  int64_t ReadElementBlock41(int64_t at_most);
+  void ReadEntities4();
+  void ReadEntity4(int dimension);
+  void ReadPartitionedEntities4();
+  void ReadPartitionedEntity4(int dimension);
+  void SkipBounds4(int dimension);
+  Groups ReadPhysicalTags4(int dimension);
+  void ReadNodes4();
+  void ReadNodeBlock4(int64_t at_most);
+  void ReadElements4();
+  int64_t ReadElementBlock4(int64_t at_most);
 
   Node ReadPosition(int64_t tag);
   /// Numbers the nodes read so far by rising tag and hands them to the builder.
   void FinishNodes();
   int64_t NodeOfTag(int64_t tag) const;
   /// Reads as many node tags as `type` has and adds the element, if it is a tetrahedron.
-  void ReadElement(int64_t type, ScalarType tag_type, int group);
+  void ReadElement(int64_t type, ScalarType tag_type, const Groups& groups);
   /// Throws where the element type is refused; else its number of nodes.
   int NodeCountOf(int64_t type);
-  /// Index of a physical volume among the groups, -1 for tag 0.
+  /// The group of a physical volume, by its name where it has one.
   int GroupOf(int64_t physical_tag);
 
   int64_t ReadSize(const char* what);
   int64_t ReadInt(const char* what);
+  /// Where binary numbers begin after a line of text.
+  void BeginNumbers(const char* what);
   void CheckRoom(int64_t count, size_t least_binary_bytes, const char* what);
 
   Scanner scanner_;
   MeshBuilder* builder_;
-  bool version_41_ = false;
+  Version version_ = Version::k2;
   ScalarType size_type_ = ScalarType::kUInt64;  ///< of size_t in 4.1
+  ScalarType tag_type_ = ScalarType::kInt32;    ///< of nodes and elements
 
   std::vector<Node> nodes_;
   std::vector<int64_t> tags_;  ///< of the nodes, rising
   bool nodes_read_ = false;
   bool elements_read_ = false;
 
-  std::map<int64_t, std::string> volume_names_;    ///< by physical tag
-  std::map<int64_t, int64_t> physical_of_volume_;  ///< 4.1: entity tag -> physical tag or 0
-  std::map<int64_t, int> group_of_physical_;
-  std::vector<std::string> group_names_;
+  std::map<int64_t, std::string> volume_names_;   ///< by physical tag
+  std::map<int64_t, Groups> groups_of_volume_;    ///< 4: by entity tag
 };
 
 }  // namespace palpate::fem::mesh_io

@@ -3,11 +3,17 @@
 
 #include "libs/fem/mesh_io/mesh_builder.hpp"
 
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/mesh_io/cell_kinds.hpp"
+#include "libs/fem/mesh_io/orientation.hpp"
 
 namespace palpate::fem::mesh_io {
 
@@ -16,29 +22,13 @@ namespace {
 /// Nodal vectors have 3n entries, numbered by int.
 constexpr int64_t kMaxNodes = std::numeric_limits<int>::max() / 3;
 
-double SixfoldVolume(const TetMesh& mesh, int cell) {
-  const auto corner = [&](int k) -> Eigen::Vector3d {
-    return mesh.nodes_m.col(mesh.cells(k, cell));
-  };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(corner(3) - corner(0));
-}
+constexpr size_t kMostGroupsOfCellData = 64;
+constexpr double kLargestGroupNumber = 1e9;
 
-bool NoCellIsPositive(const TetMesh& mesh) {
-  bool any_negative = false;
-  for (int cell = 0; cell < mesh.CellCount(); ++cell) {
-    const double volume = SixfoldVolume(mesh, cell);
-    if (volume > 0.0) return false;
-    any_negative = any_negative || volume < 0.0;
-  }
-  return any_negative;
-}
-
-/// Exchanges corners 1 and 2, and with them the mid-edge nodes 01-02 and 13-23.
-void TurnAllCells(TetMesh* mesh) {
-  mesh->cells.row(1).swap(mesh->cells.row(2));
-  if (mesh->element_type() == ElementType::kTet4) return;
-  mesh->cells.row(4).swap(mesh->cells.row(6));
-  mesh->cells.row(8).swap(mesh->cells.row(9));
+bool AreWholeNumbers(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double value) {
+    return std::abs(value) <= kLargestGroupNumber && value == std::floor(value);
+  });
 }
 
 }  // namespace
@@ -51,10 +41,11 @@ void MeshBuilder::AddNode(double x, double y, double z) {
 }
 
 void MeshBuilder::AddVtkCell(int64_t vtk_type, std::span<const int64_t> nodes) {
-  const CellKind kind = VtkCellKind(vtk_type);
+  const CellKind kind = VtkCellKind(vtk_type, nodes.size());
   if (kind.role == CellRole::kRefused) {
-    FailAtCell("cells of type " + std::to_string(vtk_type) + " (" + kind.name +
-               ") are not read, only tetrahedra of 4 or 10 nodes");
+    FailAtCell("cells of type " + std::to_string(vtk_type) + " (" + kind.name + ", " +
+               std::to_string(nodes.size()) +
+               " nodes) are not read, only tetrahedra of 4 or 10 nodes");
   }
   if (kind.node_count > 0 && static_cast<size_t>(kind.node_count) != nodes.size()) {
     FailAtCell("has " + std::to_string(nodes.size()) + " nodes, a " + kind.name + " has " +
@@ -62,21 +53,49 @@ void MeshBuilder::AddVtkCell(int64_t vtk_type, std::span<const int64_t> nodes) {
   }
   if (kind.role == CellRole::kLowerDimension) {
     CheckNodes(nodes);
+    tet_of_vtk_cell_.push_back(-1);
   } else {
-    AddTet(kind.role == CellRole::kTet4 ? ElementType::kTet4 : ElementType::kTet10, nodes, -1);
+    const auto type = kind.role == CellRole::kTet4 ? ElementType::kTet4 : ElementType::kTet10;
+    const int tet = AddTet(type, nodes);
+    tet_of_vtk_cell_.push_back(tet);
   }
-  ++vtk_cells_seen_;
 }
 
-void MeshBuilder::AddTet(ElementType type, std::span<const int64_t> nodes, int group) {
+void MeshBuilder::AddVtkCellData(const std::string& name, int64_t first_cell,
+                                 std::span<const double> values) {
+  if (!AreWholeNumbers(values)) return;
+  std::set<double> distinct;
+  for (const double value : values) {
+    distinct.insert(value);
+    if (distinct.size() > kMostGroupsOfCellData) return;
+  }
+  std::map<double, int> group_of_value;
+  for (const double value : distinct) {
+    group_of_value[value] =
+        GroupNamed(name + "=" + std::to_string(static_cast<int64_t>(value)));
+  }
+  for (size_t k = 0; k < values.size(); ++k) {
+    const int tet = tet_of_vtk_cell_.at(static_cast<size_t>(first_cell) + k);
+    if (tet >= 0) AddToGroup(group_of_value[values[k]], tet);
+  }
+}
+
+int MeshBuilder::AddTet(ElementType type, std::span<const int64_t> nodes) {
   const int count = static_cast<int>(type);
   if (nodes_per_cell_ != 0 && nodes_per_cell_ != count) {
     FailAtCell("tetrahedra of 4 and of 10 nodes are mixed");
   }
   CheckNodes(nodes);
+  if (tet_count_ >= kMaxNodes) throw InputError(file_ + ": too many cells");
   nodes_per_cell_ = count;
   for (const int64_t node : nodes) cells_.push_back(static_cast<int>(node));
-  groups_.push_back(group);
+  return tet_count_++;
+}
+
+int MeshBuilder::GroupNamed(const std::string& name) {
+  const auto [entry, is_new] = group_of_name_.try_emplace(name, static_cast<int>(groups_.size()));
+  if (is_new) groups_.push_back({.name = name, .cells = {}});
+  return entry->second;
 }
 
 void MeshBuilder::CheckNodes(std::span<const int64_t> nodes) const {
@@ -89,31 +108,68 @@ void MeshBuilder::CheckNodes(std::span<const int64_t> nodes) const {
 }
 
 void MeshBuilder::FailAtCell(const std::string& message) const {
-  const int64_t cell = vtk_cells_seen_ > 0 ? vtk_cells_seen_ : static_cast<int64_t>(groups_.size());
+  const int64_t cell = tet_of_vtk_cell_.empty() ? tet_count_ : VtkCellCount();
   throw InputError(file_ + ": cell " + std::to_string(cell) + ": " + message);
 }
 
+void MeshBuilder::KeepOneOfEqualTets() {
+  const auto size = static_cast<size_t>(nodes_per_cell_);
+  std::vector<std::pair<std::array<int, 4>, int>> keyed;
+  for (int tet = 0; tet < tet_count_; ++tet) {
+    std::array<int, 4> corners{};
+    std::copy_n(cells_.begin() + static_cast<std::ptrdiff_t>(size) * tet, 4, corners.begin());
+    std::sort(corners.begin(), corners.end());
+    keyed.emplace_back(corners, tet);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<int> first(keyed.size());  // of the tetrahedra with the same corners
+  for (size_t k = 0; k < keyed.size(); ++k) {
+    const bool same = k > 0 && keyed[k].first == keyed[k - 1].first;
+    first[At(keyed[k].second)] = same ? first[At(keyed[k - 1].second)] : keyed[k].second;
+  }
+  std::vector<int> new_index(keyed.size());
+  int kept = 0;
+  for (int tet = 0; tet < tet_count_; ++tet) {
+    if (first[At(tet)] != tet) {
+      new_index[At(tet)] = new_index[At(first[At(tet)])];
+      continue;
+    }
+    const auto from = cells_.begin() + static_cast<std::ptrdiff_t>(size) * tet;
+    std::copy_n(from, size, cells_.begin() + static_cast<std::ptrdiff_t>(size) * kept);
+    new_index[At(tet)] = kept++;
+  }
+  cells_.resize(size * static_cast<size_t>(kept));
+  tet_count_ = kept;
+  for (CellGroup& group : groups_) {
+    for (int& cell : group.cells) cell = new_index[At(cell)];
+  }
+}
+
+/// A cell of several groups is of the last one.
+void MeshBuilder::NameGroups(TetMesh* mesh) {
+  std::erase_if(groups_, [](const CellGroup& group) { return group.cells.empty(); });
+  if (groups_.empty()) return;
+  mesh->group_of_cell.assign(static_cast<size_t>(tet_count_), -1);
+  for (const CellGroup& group : groups_) {
+    const int index = static_cast<int>(mesh->group_names.size());
+    for (const int cell : group.cells) mesh->group_of_cell[At(cell)] = index;
+    mesh->group_names.push_back(group.name);
+  }
+}
+
 TetMesh MeshBuilder::Finish(double metres_per_unit, std::vector<std::string>* notes) && {
-  if (groups_.empty()) throw InputError(file_ + ": holds no tetrahedron");
-  const int64_t cell_count = static_cast<int64_t>(groups_.size());
-  if (cell_count > kMaxNodes) throw InputError(file_ + ": too many cells");
+  if (tet_count_ == 0) throw InputError(file_ + ": holds no tetrahedron");
+  if (merge_equal_tets_ && groups_.size() > 1) KeepOneOfEqualTets();
   TetMesh mesh;
   mesh.nodes_m =
       metres_per_unit * Eigen::Map<const Eigen::Matrix3Xd>(coordinates_.data(), 3, NodeCount());
   if (!mesh.nodes_m.allFinite()) {
     throw InputError(file_ + ": a coordinate is not finite once it is in metres");
   }
-  mesh.cells = Eigen::Map<const Eigen::MatrixXi>(cells_.data(), nodes_per_cell_, cell_count);
-  if (!group_names_.empty()) {
-    mesh.group_of_cell = std::move(groups_);
-    mesh.group_names = std::move(group_names_);
-  }
-  if (NoCellIsPositive(mesh)) {
-    TurnAllCells(&mesh);
-    if (notes != nullptr) {
-      notes->push_back(file_ + ": all cells are oriented the other way round and were turned");
-    }
-  }
+  mesh.cells = Eigen::Map<const Eigen::MatrixXi>(cells_.data(), nodes_per_cell_, tet_count_);
+  NameGroups(&mesh);
+  const std::string note = OrientCells(&mesh);
+  if (!note.empty() && notes != nullptr) notes->push_back(file_ + ": " + note);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::fem::mesh_io {
+
+/// Cells with a common name; groups may overlap.
+struct CellGroup {
+  std::string name;
+  std::vector<int> cells;
+};
 
 /// Collects what a reader finds and makes the TetMesh of it. Nodes come before cells.
 class MeshBuilder {
@@ -26,26 +33,42 @@ class MeshBuilder {
   /// A cell of VTK type `vtk_type`, its node indices counted from 0 over all nodes added so far.
   /// Throws InputError where the type is refused, the count wrong, or an index out of range.
   void AddVtkCell(int64_t vtk_type, std::span<const int64_t> nodes);
+  int64_t VtkCellCount() const { return static_cast<int64_t>(tet_of_vtk_cell_.size()); }
 
-  /// A tetrahedron in VTK's node order; `group` is an index into group_names or -1.
-  void AddTet(ElementType type, std::span<const int64_t> nodes, int group);
+  /// Values of the VTK cells from `first_cell` on. Where they are few whole numbers each of them
+  /// becomes a group "name=value".
+  void AddVtkCellData(const std::string& name, int64_t first_cell, std::span<const double> values);
 
-  void SetGroupNames(std::vector<std::string> names) { group_names_ = std::move(names); }
+  /// A tetrahedron in VTK's node order; returns its index.
+  int AddTet(ElementType type, std::span<const int64_t> nodes);
 
-  /// The mesh in metres. Throws InputError where there is no tetrahedron.
+  /// Tetrahedra of equal nodes are one, in all of their groups: a format writes an element once for
+  /// each group.
+  void MergeEqualTets() { merge_equal_tets_ = true; }
+
+  /// Index of the group, which is made where it is not there.
+  int GroupNamed(const std::string& name);
+  void AddToGroup(int group, int tet) { groups_[static_cast<size_t>(group)].cells.push_back(tet); }
+
+  /// The mesh in metres, its cells positively oriented where that is possible (see ReadMesh).
+  /// Throws InputError where there is no tetrahedron.
   TetMesh Finish(double metres_per_unit, std::vector<std::string>* notes) &&;
 
  private:
   [[noreturn]] void FailAtCell(const std::string& message) const;
   void CheckNodes(std::span<const int64_t> nodes) const;
+  void KeepOneOfEqualTets();
+  void NameGroups(TetMesh* mesh);
 
   std::string file_;
   std::vector<double> coordinates_;  ///< x y z of each node, unit of the file
   std::vector<int> cells_;           ///< 4 or 10 indices for each tetrahedron
-  std::vector<int> groups_;          ///< one for each tetrahedron
-  std::vector<std::string> group_names_;
-  int nodes_per_cell_ = 0;      ///< 0: no tetrahedron yet
-  int64_t vtk_cells_seen_ = 0;  ///< of any type, for messages
+  std::vector<CellGroup> groups_;
+  std::map<std::string, int> group_of_name_;
+  std::vector<int> tet_of_vtk_cell_;  ///< -1: a cell of lower dimension
+  int tet_count_ = 0;
+  int nodes_per_cell_ = 0;  ///< 0: no tetrahedron yet
+  bool merge_equal_tets_ = false;
 };
 
 }  // namespace palpate::fem::mesh_io

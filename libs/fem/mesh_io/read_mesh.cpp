@@ -3,8 +3,6 @@
 
 #include "libs/fem/mesh_io/read_mesh.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -14,6 +12,7 @@
 #include "libs/core/error.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/mesh_builder.hpp"
+#include "libs/fem/mesh_io/mesh_kind.hpp"
 
 namespace palpate::fem {
 
@@ -37,11 +36,18 @@ std::string LoadBytes(const std::filesystem::path& file) {
   return std::move(bytes).str();
 }
 
-std::string LowerCaseEnding(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return ending;
+using Reader = void (*)(std::string_view bytes, mesh_io::MeshBuilder* builder);
+
+Reader ReaderOf(MeshKind kind) {
+  switch (kind) {
+    case MeshKind::kVtu: return mesh_io::ReadVtu;
+    case MeshKind::kLegacyVtk: return mesh_io::ReadLegacyVtk;
+    case MeshKind::kGmsh: return mesh_io::ReadGmsh;
+    case MeshKind::kAbaqus: return mesh_io::ReadAbaqus;
+    case MeshKind::kMedit: return mesh_io::ReadMedit;
+    case MeshKind::kNone: break;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -49,17 +55,14 @@ std::string LowerCaseEnding(const std::filesystem::path& file) {
 TetMesh ReadMesh(const std::filesystem::path& file, double metres_per_unit,
                  std::vector<std::string>* notes) {
   PALPATE_CHECK(std::isfinite(metres_per_unit) && metres_per_unit > 0.0, metres_per_unit);
-  const std::string ending = LowerCaseEnding(file);
-  const auto read = ending == ".vtu"   ? mesh_io::ReadVtu
-                    : ending == ".vtk" ? mesh_io::ReadLegacyVtk
-                    : ending == ".msh" ? mesh_io::ReadGmsh
-                                       : nullptr;
+  const std::string bytes = LoadBytes(file);
+  const Reader read = ReaderOf(KindOfMesh(file, bytes));
   if (read == nullptr) {
-    throw InputError(file.string() + ": unknown mesh format '" + ending +
-                     "' (known: .vtu, .vtk, .msh)");
+    throw InputError(file.string() + ": unknown mesh format '" + file.extension().string() +
+                     "' (known: " + MeshEndings() + ")");
   }
   mesh_io::MeshBuilder builder(file.string());
-  read(LoadBytes(file), &builder);
+  read(bytes, &builder);
   return std::move(builder).Finish(metres_per_unit, notes);
 }
 

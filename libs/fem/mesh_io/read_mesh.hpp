@@ -11,18 +11,21 @@
 
 namespace palpate::fem {
 
-/// Reads a volume mesh; the ending of the file names its format:
-///   .vtu  VTK XML UnstructuredGrid: ascii, inline base64, appended (raw or base64), with or
-///         without zlib compression, either byte order, header_type UInt32 or UInt64; several
-///         Pieces are put one after another (nodes that they share stay doubled).
-///   .vtk  VTK legacy UNSTRUCTURED_GRID, versions 2 to 5, ASCII and BINARY.
-///   .msh  Gmsh 2.2 and 4.1, ASCII and binary; physical volumes become groups.
+/// Reads a volume mesh; its first bytes name its format, and its ending where these say nothing:
+///   .vtu   VTK XML UnstructuredGrid: ascii, inline base64, appended (raw or base64), with or
+///          without zlib, LZ4 or LZMA compression, either byte order, header_type UInt32 or UInt64;
+///          several Pieces are put one after another (nodes that they share stay doubled).
+///   .vtk   VTK legacy UNSTRUCTURED_GRID, versions 2 to 5, ASCII and BINARY.
+///   .msh   Gmsh 2.0 to 2.2, 4.0 and 4.1, ASCII and binary, also in partitions.
+///   .inp   Abaqus and CalculiX: *NODE, *ELEMENT of type C3D4 and C3D10, *ELSET; one part.
+///   .mesh  Medit, as text.
 /// Kept are tetrahedra of 4 or of 10 nodes, not both in one file. Cells of lower dimension are
 /// passed over, other volume cells refused. Lengths are multiplied by `metres_per_unit` (> 0).
+/// Physical volumes, element sets, references and cell data of whole numbers become groups.
 ///
 /// Nodes keep the order of the file (Gmsh: the order of their tags), whether a cell uses them or
-/// not. Cells stay oriented as they are, unless not one of them is positively oriented: then the
-/// file's convention is the opposite one, all are turned, and `notes` (may be null) says so.
+/// not. Cells that are oriented the other way round are turned where the mesh is sound then, and
+/// `notes` (may be null) says so.
 ///
 /// Throws InputError (file:line:column, or the byte or array in binary data) on anything that is
 /// missing, cut off, miscounted, not finite or out of range. Inverted, degenerate and doubled

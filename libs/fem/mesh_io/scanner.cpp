@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
@@ -37,6 +38,11 @@ std::string_view Scanner::Token(const char* what) {
   const std::string_view token = TokenOrEnd();
   if (token.empty()) Fail(std::string("the file ends before ") + what);
   return token;
+}
+
+std::string_view Scanner::Peek() const {
+  const size_t start = std::min(bytes_.find_first_not_of(kWhiteSpace, position_), bytes_.size());
+  return bytes_.substr(start);
 }
 
 std::string_view Scanner::Line(const char* what) {
@@ -75,6 +81,12 @@ double Scanner::Real(ScalarType type, const char* what) {
     Fail(std::string(what) + ": " + Quoted(token) + " is not a finite number");
   }
   return value;
+}
+
+double Scanner::RealOrNan(ScalarType type, const char* what) {
+  if (binary_) return DecodeReal(type, Bytes(SizeInBytes(type), what), swap_);
+  double value = 0.0;
+  return ParseFinite(Token(what), &value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 int64_t Scanner::Integer(ScalarType type, int64_t min, int64_t max, const char* what) {

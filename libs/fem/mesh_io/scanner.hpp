@@ -29,6 +29,8 @@ class Scanner {
   std::string_view Token(const char* what);
   /// The same, or empty at the end of the file.
   std::string_view TokenOrEnd();
+  /// What follows from the next word on, without reading it.
+  std::string_view Peek() const;
   /// The rest of this line; the next line follows.
   std::string_view Line(const char* what);
   /// The next `count` bytes as they are.
@@ -36,8 +38,15 @@ class Scanner {
   /// Goes on behind the next occurrence of `mark`.
   void SkipPast(std::string_view mark);
 
+  /// What Token or TokenOrEnd gave last.
+  std::string_view LastToken() const {
+    return bytes_.substr(last_start_, position_ - last_start_);
+  }
+
   /// A number: a word of text, or `type` in binary. Refuses what is not finite.
   double Real(ScalarType type, const char* what);
+  /// The same; what is no finite number becomes NaN.
+  double RealOrNan(ScalarType type, const char* what);
   /// An integer in [min, max].
   int64_t Integer(ScalarType type, int64_t min, int64_t max, const char* what);
   /// An integer in [min, max] as a word of text, in binary files too.

@@ -5,12 +5,14 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "libs/core/text.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/scanner.hpp"
@@ -26,7 +28,7 @@ std::string UpperCase(std::string_view word) {
   return upper;
 }
 
-ScalarType ReadType(Scanner* scanner) {
+std::optional<ScalarType> FindType(std::string_view name) {
   static constexpr auto kTypes = std::to_array<std::pair<std::string_view, ScalarType>>({
       {"char", ScalarType::kInt8},
       {"unsigned_char", ScalarType::kUInt8},
@@ -34,6 +36,14 @@ ScalarType ReadType(Scanner* scanner) {
       {"unsigned_short", ScalarType::kUInt16},
       {"int", ScalarType::kInt32},
       {"unsigned_int", ScalarType::kUInt32},
+      {"signed_char", ScalarType::kInt8},
+      {"vtktypeint8", ScalarType::kInt8},
+      {"vtktypeuint8", ScalarType::kUInt8},
+      {"vtktypeint16", ScalarType::kInt16},
+      {"vtktypeuint16", ScalarType::kUInt16},
+      {"vtktypeuint32", ScalarType::kUInt32},
+      {"long_long", ScalarType::kInt64},
+      {"unsigned_long_long", ScalarType::kUInt64},
       {"vtkIdType", ScalarType::kInt32},
       {"vtktypeint32", ScalarType::kInt32},
       {"long", ScalarType::kInt64},
@@ -43,11 +53,28 @@ ScalarType ReadType(Scanner* scanner) {
       {"float", ScalarType::kFloat32},
       {"double", ScalarType::kFloat64},
   });
-  const std::string_view name = scanner->Token("a data type");
   for (const auto& [known, type] : kTypes) {
     if (known == name) return type;
   }
-  scanner->Fail("data type '" + std::string(name) + "' is not read");
+  return std::nullopt;
+}
+
+ScalarType ReadType(Scanner* scanner) {
+  const std::string_view name = scanner->Token("a data type");
+  if (const auto type = FindType(name)) return *type;
+  scanner->Fail("data type '" + Excerpt(name) + "' is not read");
+}
+
+/// One entry of a binary string array: its length, whose two highest bits say in how many bytes
+/// it stands, then the text.
+void SkipBinaryString(Scanner* scanner) {
+  constexpr const char* kWhat = "the length of a string";
+  const auto byte = [&] { return static_cast<unsigned char>(scanner->Bytes(1, kWhat).front()); };
+  const unsigned first = byte();
+  const unsigned more = (first >> 6) == 3 ? 0 : (first >> 6) == 2 ? 1 : (first >> 6) == 1 ? 3 : 7;
+  uint64_t length = first & 0x3f;
+  for (unsigned k = 0; k < more; ++k) length = length << 8 | byte();
+  scanner->Bytes(length, "a string");
 }
 
 /// Cells as VTK 5 stores them: cell k has nodes offsets[k] to offsets[k + 1] - 1 of `nodes`.
@@ -66,6 +93,7 @@ class LegacyReader {
     ReadHeader();
     while (!points_read_ || !cells_ || !types_) ReadSection();
     AddCells();
+    ReadCellData();
   }
 
  private:
@@ -77,7 +105,12 @@ class LegacyReader {
   void ReadCellTypes();
   void SkipMetadata();
   void SkipField();
+  void SkipFieldValues(std::string_view type_name, int64_t count);
   void AddCells();
+  void ReadCellData();
+  void ReadCellScalars();
+  void ReadCellField();
+  void TakeCellArray(const std::string& name, ScalarType type, int64_t components);
 
   int64_t ReadCount(const char* what) { return scanner_.TextInteger(0, kMaxCount, what); }
 
@@ -226,15 +259,38 @@ void LegacyReader::SkipField() {
     }
     const int64_t components = ReadCount("the number of components");
     const int64_t tuples = ReadCount("the number of tuples");
-    const ScalarType type = ReadType(&scanner_);
-    EndLine();
+    const std::string type(scanner_.Token("a data type"));
     if (components > 0 && tuples > kMaxCount / components) scanner_.Fail("the array is too long");
-    const int64_t count = components * tuples;
-    CheckRoom(count, type, "field values");
-    for (int64_t k = 0; k < count; ++k) {
-      scanner_.binary() ? scanner_.Bytes(SizeInBytes(type), "a field value")
-                        : scanner_.Token("a field value");
-    }
+    SkipFieldValues(type, components * tuples);
+  }
+}
+
+/// Numbers, bits (eight in a byte) or strings (one a line in text).
+void LegacyReader::SkipFieldValues(std::string_view type_name, int64_t count) {
+  const std::string type = UpperCase(type_name);
+  const bool strings = type == "STRING" || type == "UTF8_STRING";
+  if (strings && !scanner_.binary()) {
+    scanner_.Line("a string array");
+    scanner_.CheckRoom(count, 1, "strings");
+    for (int64_t k = 0; k < count; ++k) scanner_.Line("a string");
+    return;
+  }
+  EndLine();
+  if (strings) {
+    scanner_.CheckRoom(count, 1, "strings");
+    for (int64_t k = 0; k < count; ++k) SkipBinaryString(&scanner_);
+    return;
+  }
+  if (type == "BIT" && scanner_.binary()) {
+    scanner_.Bytes(static_cast<size_t>(count + 7) / 8, "bits");
+    return;
+  }
+  const std::optional<ScalarType> number = type == "BIT" ? ScalarType::kInt8 : FindType(type_name);
+  if (!number) scanner_.Fail("data type '" + Excerpt(type_name) + "' is not read");
+  CheckRoom(count, *number, "field values");
+  for (int64_t k = 0; k < count; ++k) {
+    scanner_.binary() ? scanner_.Bytes(SizeInBytes(*number), "a field value")
+                      : scanner_.Token("a field value");
   }
 }
 
@@ -249,6 +305,80 @@ void LegacyReader::AddCells() {
     const auto end = static_cast<size_t>(offsets[cell + 1]);
     builder_->AddVtkCell((*types_)[cell], std::span(cells_->nodes).subspan(start, end - start));
   }
+}
+
+/// What follows the cells is read as far as it is understood: it only names groups.
+void LegacyReader::ReadCellData() {
+  if (UpperCase(scanner_.TokenOrEnd()) == "METADATA") {
+    SkipMetadata();
+    scanner_.TokenOrEnd();
+  }
+  if (UpperCase(scanner_.LastToken()) != "CELL_DATA") return;
+  if (ReadCount("the number of cells") != builder_->VtkCellCount()) {
+    scanner_.Fail("CELL_DATA has another number of cells than CELLS");
+  }
+  while (true) {
+    const std::string keyword = UpperCase(scanner_.TokenOrEnd());
+    if (keyword == "METADATA") {
+      SkipMetadata();
+    } else if (keyword == "SCALARS") {
+      ReadCellScalars();
+    } else if (keyword == "FIELD") {
+      ReadCellField();
+    } else {
+      return;
+    }
+  }
+}
+
+/// SCALARS name type [components], then LOOKUP_TABLE name.
+void LegacyReader::ReadCellScalars() {
+  const std::string name(scanner_.Token("the name of an array"));
+  const ScalarType type = ReadType(&scanner_);
+  std::string next(scanner_.Token("LOOKUP_TABLE"));
+  int64_t components = 1;
+  if (UpperCase(next) != "LOOKUP_TABLE") {
+    components = std::strtol(next.c_str(), nullptr, 10);
+    next = scanner_.Token("LOOKUP_TABLE");
+  }
+  if (UpperCase(next) != "LOOKUP_TABLE" || components < 1 || components > 4) {
+    scanner_.Fail("expected LOOKUP_TABLE");
+  }
+  scanner_.Token("the name of a table");
+  EndLine();
+  TakeCellArray(name, type, components);
+}
+
+void LegacyReader::ReadCellField() {
+  scanner_.Token("the name of the field");
+  const int64_t arrays = ReadCount("the number of arrays");
+  for (int64_t array = 0; array < arrays; ++array) {
+    std::string name(scanner_.Token("the name of an array"));
+    if (name == "METADATA") {
+      SkipMetadata();
+      name = scanner_.Token("the name of an array");
+    }
+    const int64_t components = ReadCount("the number of components");
+    const int64_t tuples = ReadCount("the number of tuples");
+    const std::string type_name(scanner_.Token("a data type"));
+    if (components > 0 && tuples > kMaxCount / components) scanner_.Fail("the array is too long");
+    const std::optional<ScalarType> type = FindType(type_name);
+    if (!type || tuples != builder_->VtkCellCount()) {
+      SkipFieldValues(type_name, components * tuples);
+      continue;
+    }
+    EndLine();
+    TakeCellArray(name, *type, components);
+  }
+}
+
+void LegacyReader::TakeCellArray(const std::string& name, ScalarType type, int64_t components) {
+  const int64_t count = components * builder_->VtkCellCount();
+  CheckRoom(count, type, "cell data");
+  std::vector<double> values;
+  values.reserve(static_cast<size_t>(count));
+  for (int64_t k = 0; k < count; ++k) values.push_back(scanner_.RealOrNan(type, "cell data"));
+  if (components == 1) builder_->AddVtkCellData(name, 0, values);
 }
 
 }  // namespace

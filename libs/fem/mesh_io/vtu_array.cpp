@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "libs/core/error.hpp"
@@ -24,7 +25,7 @@ namespace {
 using tinyxml2::XMLElement;
 using tinyxml2::XMLText;
 
-ScalarType TypeOf(const XMLElement& array, const VtuStorage& storage) {
+std::optional<ScalarType> FindType(const XMLElement& array) {
   static constexpr auto kTypes = std::to_array<std::pair<std::string_view, ScalarType>>({
       {"Int8", ScalarType::kInt8},
       {"UInt8", ScalarType::kUInt8},
@@ -38,11 +39,17 @@ ScalarType TypeOf(const XMLElement& array, const VtuStorage& storage) {
       {"Float64", ScalarType::kFloat64},
   });
   const char* name = array.Attribute("type");
-  if (name == nullptr) FailAtArray(array, storage, "has no attribute 'type'");
   for (const auto& [known, type] : kTypes) {
-    if (known == name) return type;
+    if (name != nullptr && known == name) return type;
   }
-  FailAtArray(array, storage, "unknown type '" + std::string(name) + "'");
+  return std::nullopt;
+}
+
+ScalarType TypeOf(const XMLElement& array, const VtuStorage& storage) {
+  if (const auto type = FindType(array)) return *type;
+  const char* name = array.Attribute("type");
+  FailAtArray(array, storage,
+              name == nullptr ? "has no attribute 'type'" : "unknown type '" + Excerpt(name) + "'");
 }
 
 /// The line of `position` in a text whose first word stands on the line of the node.
@@ -124,6 +131,11 @@ std::vector<int64_t> ReadIntegerArray(const XMLElement& array, const VtuStorage&
     values[k] = *value;
   }
   return values;
+}
+
+bool IsIntegerArray(const XMLElement& array) {
+  const std::optional<ScalarType> type = FindType(array);
+  return type && IsInteger(*type);
 }
 
 void FailAtArray(const XMLElement& array, const VtuStorage& storage, const std::string& message) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "libs/fem/mesh_io/packing.hpp"
+
 namespace tinyxml2 {
 class XMLElement;
 }
@@ -18,7 +20,7 @@ namespace palpate::fem::mesh_io {
 struct VtuStorage {
   std::string file;              ///< for messages
   bool swap = false;             ///< byte order of the file is not that of this machine
-  bool compressed = false;       ///< vtkZLibDataCompressor
+  Packing packing = Packing::kNone;
   bool wide_header = false;      ///< header_type UInt64 instead of UInt32
   bool appended_base64 = false;  ///< AppendedData is base64, else raw
   std::string_view appended;     ///< AppendedData after its underscore
@@ -31,6 +33,9 @@ std::vector<double> ReadRealArray(const tinyxml2::XMLElement& array, const VtuSt
 /// The same for arrays of integers.
 std::vector<int64_t> ReadIntegerArray(const tinyxml2::XMLElement& array, const VtuStorage& storage,
                                       int64_t count);
+
+/// Whether the array says that it holds integers of a known type.
+bool IsIntegerArray(const tinyxml2::XMLElement& array);
 
 /// Throws InputError "file:line: array 'Name': message".
 [[noreturn]] void FailAtArray(const tinyxml2::XMLElement& array, const VtuStorage& storage,

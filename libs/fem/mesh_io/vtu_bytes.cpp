@@ -9,7 +9,6 @@
 
 #include "libs/fem/mesh_io/base64.hpp"
 #include "libs/fem/mesh_io/scalar_type.hpp"
-#include "libs/fem/mesh_io/zlib_stream.hpp"
 
 namespace palpate::fem::mesh_io {
 
@@ -59,6 +58,8 @@ class ArrayStream {
   void Finish() const {
     if (inline_ && !base64_->AtEnd()) Fail("holds more bytes than its header says");
   }
+
+  Packing packing() const { return storage_.packing; }
 
   [[noreturn]] void Fail(const std::string& message) const {
     FailAtArray(array_, storage_, message);
@@ -122,7 +123,7 @@ std::string ReadCompressed(ArrayStream* stream, uint64_t expected_bytes) {
   for (size_t block = 0; block < sizes.packed.size(); ++block) {
     const uint64_t size = block + 1 == sizes.packed.size() ? sizes.last : sizes.full;
     const std::string packed = stream->Read(sizes.packed[block], "a packed block");
-    if (!Inflate(packed, size, &bytes)) {
+    if (!Unpack(stream->packing(), packed, size, &bytes)) {
       stream->Fail("block " + std::to_string(block) + " is damaged or of another size");
     }
   }
@@ -135,8 +136,8 @@ std::string ReadBinaryArray(const XMLElement& array, const VtuStorage& storage, 
                             size_t item_size) {
   ArrayStream stream(array, storage);
   const uint64_t expected_bytes = count * item_size;
-  std::string bytes = storage.compressed ? ReadCompressed(&stream, expected_bytes)
-                                         : ReadPlain(&stream, expected_bytes);
+  std::string bytes = storage.packing == Packing::kNone ? ReadPlain(&stream, expected_bytes)
+                                                        : ReadCompressed(&stream, expected_bytes);
   stream.Finish();
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/vtu_array.hpp"
@@ -54,15 +55,27 @@ bool IsSecondOf(const XMLElement& element, const VtuStorage& storage, const char
              (*first == '\0' ? "none" : first) + " and " + second + ")");
 }
 
+Packing ReadPacking(const XMLElement& root, const VtuStorage& storage) {
+  const std::string_view name = AttributeOr(root, "compressor", "");
+  if (name.empty()) return Packing::kNone;
+  if (name == "vtkZLibDataCompressor") return Packing::kZlib;
+  if (name == "vtkLZ4DataCompressor") return Packing::kLz4;
+  if (name == "vtkLZMADataCompressor") return Packing::kLzma;
+  FailAt(root, storage, "compressor '" + Excerpt(name) + "' is not read");
+}
+
 void ReadStorage(const XMLElement& root, VtuStorage* storage) {
-  if (AttributeOr(root, "type", "") != "UnstructuredGrid") {
-    FailAt(root, *storage,
-           "is of type '" + std::string(AttributeOr(root, "type", "")) + "', not UnstructuredGrid");
+  const std::string_view type = AttributeOr(root, "type", "");
+  if (type == "PUnstructuredGrid") {
+    FailAt(root, *storage, "only lists the pieces of a mesh: write it as one file (.vtu)");
+  }
+  if (type != "UnstructuredGrid") {
+    FailAt(root, *storage, "is of type '" + Excerpt(type) + "', not UnstructuredGrid");
   }
   const bool big_endian = IsSecondOf(root, *storage, "byte_order", "LittleEndian", "BigEndian");
   storage->swap = big_endian != (std::endian::native == std::endian::big);
   storage->wide_header = IsSecondOf(root, *storage, "header_type", "UInt32", "UInt64");
-  storage->compressed = IsSecondOf(root, *storage, "compressor", "", "vtkZLibDataCompressor");
+  storage->packing = ReadPacking(root, *storage);
   if (const XMLElement* appended = root.FirstChildElement("AppendedData")) {
     storage->appended_base64 = !IsSecondOf(*appended, *storage, "encoding", "base64", "raw");
   }
@@ -134,6 +147,22 @@ void ReadCells(const XMLElement& piece, const VtuStorage& storage, int64_t count
   }
 }
 
+/// Arrays of whole numbers name groups of cells; the others are no matter of the mesh.
+void ReadCellData(const XMLElement& piece, const VtuStorage& storage, int64_t count,
+                  MeshBuilder* builder) {
+  const XMLElement* data = piece.FirstChildElement("CellData");
+  if (data == nullptr) return;
+  for (const XMLElement* array = data->FirstChildElement("DataArray"); array != nullptr;
+       array = array->NextSiblingElement("DataArray")) {
+    const std::string_view components = AttributeOr(*array, "NumberOfComponents", "1");
+    if (components != "1" || !IsIntegerArray(*array)) continue;
+    const std::vector<int64_t> integers = ReadIntegerArray(*array, storage, count);
+    const std::vector<double> values(integers.begin(), integers.end());
+    builder->AddVtkCellData(std::string(AttributeOr(*array, "Name", "cells")),
+                            builder->VtkCellCount() - count, values);
+  }
+}
+
 }  // namespace
 
 void ReadVtu(std::string_view bytes, MeshBuilder* builder) {
@@ -155,7 +184,9 @@ void ReadVtu(std::string_view bytes, MeshBuilder* builder) {
        piece = piece->NextSiblingElement("Piece")) {
     const int64_t first_node = builder->NodeCount();
     ReadPoints(*piece, storage, Count(*piece, storage, "NumberOfPoints"), builder);
-    ReadCells(*piece, storage, Count(*piece, storage, "NumberOfCells"), first_node, builder);
+    const int64_t cells = Count(*piece, storage, "NumberOfCells");
+    ReadCells(*piece, storage, cells, first_node, builder);
+    ReadCellData(*piece, storage, cells, builder);
   }
 }
 

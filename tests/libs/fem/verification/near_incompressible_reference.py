@@ -91,7 +91,7 @@ def write_deck(body, ratio, file):
         for index in cell:
             number.setdefault(index, len(number) + 1)
     lines = ["*NODE, NSET=NALL"]
-    lines += [f"{n}," + ",".join(f"{v:.12g}" for v in body.place(body.share(index)))
+    lines += [f"{n}," + ",".join(f"{v:.12e}" for v in body.place(body.share(index)))
               for index, n in number.items()]
     lines.append("*ELEMENT, TYPE=C3D20R, ELSET=BODY")
     for n, cell in enumerate(cells, 1):
@@ -102,7 +102,7 @@ def write_deck(body, ratio, file):
     lines += [f"{n},{'xyz'.index(axis) + 1}" for index, n in number.items()
               for axis in body.held(body.share(index))]
     lines += ["*STEP", "*STATIC", "*CLOAD"]
-    lines += [f"{number[index]},{body.direction},{force:.15g}"
+    lines += [f"{number[index]},{body.direction},{force:.12e}"
               for index, force in end_loads(body, cells).items()]
     probe = tuple(round(2 * body.bricks[a] * body.probe[a]) for a in range(3))
     lines += ["*NSET, NSET=PROBE", str(number[probe]),

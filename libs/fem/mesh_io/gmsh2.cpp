@@ -9,25 +9,26 @@
 
 namespace palpate::fem::mesh_io {
 
-void GmshReader::ReadNodes22() {
+void GmshReader::ReadNodes2() {
   const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of nodes");
   scanner_.Line("the nodes");
   CheckRoom(count, sizeof(int32_t) + 3 * sizeof(double), "nodes");
   for (int64_t k = 0; k < count; ++k) {
-    nodes_.push_back(
-        ReadPosition(scanner_.Integer(ScalarType::kInt32, 1, kMaxCount, "a node tag")));
+    nodes_.push_back(ReadPosition(scanner_.Integer(tag_type_, 1, kMaxCount, "a node tag")));
   }
 }
 
-void GmshReader::ReadElements22() {
+/// An element stands there once for each physical group that holds it.
+void GmshReader::ReadElements2() {
+  builder_->MergeEqualTets();
   const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of elements");
   scanner_.Line("the elements");
-  for (int64_t left = count; left > 0;) left -= ReadElementBlock22(left);
+  for (int64_t left = count; left > 0;) left -= ReadElementBlock2(left);
 }
 
 /// In binary files elements of one type and number of tags follow one header; in text each has its
 /// own, behind its tag. Returns how many were read.
-int64_t GmshReader::ReadElementBlock22(int64_t at_most) {
+int64_t GmshReader::ReadElementBlock2(int64_t at_most) {
   constexpr int64_t kMostTags = 1000;
   if (!scanner_.binary()) ReadInt("an element tag");
   const int64_t type = ReadInt("an element type");
@@ -37,6 +38,7 @@ int64_t GmshReader::ReadElementBlock22(int64_t at_most) {
                                           : 1;
   const int64_t tag_count =
       scanner_.Integer(ScalarType::kInt32, 0, kMostTags, "the number of tags");
+  const bool is_tet = GmshCellKind(type).role != CellRole::kLowerDimension;
   for (int64_t element = 0; element < count; ++element) {
     if (scanner_.binary()) ReadInt("an element tag");
     int64_t physical_tag = 0;
@@ -44,8 +46,8 @@ int64_t GmshReader::ReadElementBlock22(int64_t at_most) {
       const int64_t tag = ReadInt("a tag of an element");
       if (k == 0) physical_tag = std::abs(tag);
     }
-    const bool is_tet = GmshCellKind(type).role != CellRole::kLowerDimension;
-    ReadElement(type, ScalarType::kInt32, is_tet ? GroupOf(physical_tag) : -1);
+    const bool in_group = is_tet && physical_tag != 0;
+    ReadElement(type, tag_type_, in_group ? Groups{GroupOf(physical_tag)} : Groups{});
   }
   return count;
 }

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/fem/mesh_io/formats.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
+
+namespace palpate::fem::mesh_io {
+
+namespace {
+
+std::string InUpperCase(std::string_view text) {
+  std::string upper(text);
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  return upper;
+}
+
+std::string_view WithoutBlanks(std::string_view text) {
+  const size_t first = text.find_first_not_of(kWhiteSpace);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kWhiteSpace) - first + 1);
+}
+
+/// "*ELEMENT, TYPE=C3D4, ELSET=body": name in upper case without the asterisk, and parameters whose
+/// names are in upper case.
+struct Keyword {
+  std::string name;
+  std::map<std::string, std::string> parameters;
+
+  std::string Get(const std::string& parameter) const {
+    const auto found = parameters.find(parameter);
+    return found == parameters.end() ? "" : found->second;
+  }
+};
+
+/// Reads the nodes, tetrahedra and element sets of an input file of Abaqus or CalculiX; all other
+/// keywords are passed over. Element sets are groups.
+class AbaqusReader {
+ public:
+  AbaqusReader(std::string_view bytes, MeshBuilder* builder) : rest_(bytes), builder_(builder) {}
+
+  void Read() {
+    while (NextLine()) {
+      if (line_.starts_with('*')) {
+        BeginBlock();
+      } else {
+        (this->*take_)();
+      }
+    }
+    FinishElement();
+    if (keywords_ == 0) Fail("is no Abaqus input file: it has no keyword (*NODE, *ELEMENT)");
+    FinishSets();
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& message) const {
+    throw InputError(SourceLocation{builder_->file(), line_number_, 0}, message);
+  }
+
+  /// Comments and blank lines are passed over.
+  bool NextLine() {
+    while (!rest_.empty()) {
+      const size_t end = std::min(rest_.find('\n'), rest_.size());
+      line_ = WithoutBlanks(rest_.substr(0, end));
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      ++line_number_;
+      if (!line_.empty() && !line_.starts_with("**")) return true;
+    }
+    return false;
+  }
+
+  static std::vector<std::string_view> Split(std::string_view line) {
+    std::vector<std::string_view> parts;
+    for (size_t begin = 0; begin <= line.size();) {
+      const size_t end = std::min(line.find(',', begin), line.size());
+      parts.push_back(WithoutBlanks(line.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    // A comma at the end continues the line.
+    if (parts.back().empty()) parts.pop_back();
+    return parts;
+  }
+
+  Keyword ParseKeyword() const {
+    Keyword keyword;
+    for (const std::string_view part : Split(line_)) {
+      const size_t equals = part.find('=');
+      const std::string name = InUpperCase(WithoutBlanks(part.substr(0, equals)));
+      if (keyword.name.empty()) {
+        keyword.name = name.substr(1);
+      } else {
+        std::string_view value =
+            equals == std::string_view::npos ? "" : WithoutBlanks(part.substr(equals + 1));
+        if (value.size() > 1 && value.starts_with('"') && value.ends_with('"')) {
+          value = value.substr(1, value.size() - 2);
+        }
+        keyword.parameters[name] = value;
+      }
+    }
+    return keyword;
+  }
+
+  void BeginBlock() {
+    FinishElement();
+    ++keywords_;
+    const Keyword keyword = ParseKeyword();
+    take_ = &AbaqusReader::PassOver;
+    if (keyword.name == "NODE") {
+      take_ = &AbaqusReader::TakeNode;
+    } else if (keyword.name == "ELEMENT") {
+      BeginElements(keyword);
+    } else if (keyword.name == "ELSET") {
+      set_ = keyword.Get("ELSET");
+      generate_ = keyword.parameters.contains("GENERATE");
+      take_ = &AbaqusReader::TakeSet;
+    } else if (keyword.name == "PART" && ++parts_ > 1) {
+      Fail("a second *PART: save the body as one part");
+    } else if (keyword.name == "INCLUDE") {
+      Fail("*INCLUDE is not followed: put the mesh in one file");
+    }
+  }
+
+  void BeginElements(const Keyword& keyword) {
+    const std::string type = InUpperCase(keyword.Get("TYPE"));
+    set_ = keyword.Get("ELSET");
+    if (type.starts_with("C3D10")) {
+      type_ = ElementType::kTet10;
+    } else if (type.starts_with("C3D4")) {
+      type_ = ElementType::kTet4;
+    } else if (type.starts_with("C3D") || type.starts_with("SC") || type.empty()) {
+      Fail("elements of type '" + Excerpt(type) + "' are not read, only C3D4 and C3D10");
+    } else {
+      return;  // lines and surfaces
+    }
+    take_ = &AbaqusReader::TakeElement;
+  }
+
+  void PassOver() {}
+
+  int64_t Integer(std::string_view text, const char* what) const {
+    int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 1) {
+      Fail(std::string(what) + ": '" + Excerpt(text) + "' is no number from 1 on");
+    }
+    return value;
+  }
+
+  void TakeNode() {
+    const auto parts = Split(line_);
+    if (parts.size() < 4) Fail("a node has a number and three coordinates");
+    const int64_t number = Integer(parts[0], "a node");
+    std::array<double, 3> x{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (!ParseFinite(parts[axis + 1], &x[axis])) {
+        Fail("a coordinate: '" + Excerpt(parts[axis + 1]) + "' is not a finite number");
+      }
+    }
+    if (!node_of_number_.emplace(number, builder_->NodeCount()).second) {
+      Fail("node " + std::to_string(number) + " is given twice");
+    }
+    builder_->AddNode(x[0], x[1], x[2]);
+  }
+
+  /// An element may go on over several lines.
+  void TakeElement() {
+    for (const std::string_view part : Split(line_)) pending_.push_back(Integer(part, "an element"));
+    pending_line_ = line_number_;
+    const size_t needed = static_cast<size_t>(type_) + 1;
+    if (pending_.size() > needed) {
+      Fail("the element has " + std::to_string(pending_.size() - 1) + " nodes instead of " +
+           std::to_string(needed - 1));
+    }
+    if (pending_.size() == needed) AddElement();
+  }
+
+  void AddElement() {
+    std::array<int64_t, 10> nodes{};
+    for (size_t k = 1; k < pending_.size(); ++k) {
+      const auto node = node_of_number_.find(pending_[k]);
+      if (node == node_of_number_.end()) {
+        Fail("an element names node " + std::to_string(pending_[k]) + ", which does not exist");
+      }
+      nodes[k - 1] = node->second;
+    }
+    const int tet = builder_->AddTet(type_, std::span(nodes).first(pending_.size() - 1));
+    if (!tet_of_number_.emplace(pending_[0], tet).second) {
+      Fail("element " + std::to_string(pending_[0]) + " is given twice");
+    }
+    if (!set_.empty()) tets_of_set_[set_].push_back(tet);
+    pending_.clear();
+  }
+
+  void FinishElement() {
+    if (pending_.empty()) return;
+    line_number_ = pending_line_;
+    Fail("the element has " + std::to_string(pending_.size() - 1) + " nodes instead of " +
+         std::to_string(static_cast<size_t>(type_)));
+  }
+
+  /// Numbers of elements, names of other sets, or with GENERATE first, last and step.
+  void TakeSet() {
+    const auto parts = Split(line_);
+    if (generate_) {
+      if (parts.size() < 2 || parts.size() > 3) Fail("expected first, last and step");
+      const int64_t first = Integer(parts[0], "an element"), last = Integer(parts[1], "an element");
+      const int64_t step = parts.size() == 3 ? Integer(parts[2], "a step") : 1;
+      if (last > kMaxCount) Fail("an element number is too large");
+      for (int64_t number = first; number <= last; number += step) AddToSet(number);
+      return;
+    }
+    for (const std::string_view part : parts) {
+      const bool is_number = std::isdigit(static_cast<unsigned char>(part.front())) != 0;
+      if (is_number) {
+        AddToSet(Integer(part, "an element"));
+      } else if (const auto other = tets_of_set_.find(std::string(part));
+                 other != tets_of_set_.end()) {
+        const std::vector<int> tets = other->second;
+        auto& own = tets_of_set_[set_];
+        own.insert(own.end(), tets.begin(), tets.end());
+      }
+    }
+  }
+
+  /// Elements that are no tetrahedra are in no group.
+  void AddToSet(int64_t number) {
+    const auto tet = tet_of_number_.find(number);
+    if (tet != tet_of_number_.end() && !set_.empty()) tets_of_set_[set_].push_back(tet->second);
+  }
+
+  void FinishSets() {
+    for (const auto& [name, tets] : tets_of_set_) {
+      const int group = builder_->GroupNamed(name);
+      for (const int tet : tets) builder_->AddToGroup(group, tet);
+    }
+  }
+
+  std::string_view rest_;
+  std::string_view line_;
+  int line_number_ = 0;
+  int keywords_ = 0;
+  int parts_ = 0;
+  MeshBuilder* builder_;
+  void (AbaqusReader::*take_)() = &AbaqusReader::PassOver;
+
+  ElementType type_ = ElementType::kTet4;
+  std::string set_;
+  bool generate_ = false;
+  std::vector<int64_t> pending_;  ///< number and nodes of an element that is not complete
+  int pending_line_ = 0;
+  std::unordered_map<int64_t, int64_t> node_of_number_;
+  std::unordered_map<int64_t, int> tet_of_number_;
+  std::map<std::string, std::vector<int>> tets_of_set_;
+};
+
+}  // namespace
+
+void ReadAbaqus(std::string_view bytes, MeshBuilder* builder) {
+  AbaqusReader(bytes, builder).Read();
+}
+
+}  // namespace palpate::fem::mesh_io
