@@ -91,7 +91,7 @@ std::vector<std::size_t> PointsToKeep(const C3dBytes& bytes, const C3dLayout& la
     if (IsEverSeen(layout, reader, point)) {
       points.push_back(point);
     } else {
-      unseen.push_back(layout.labels[point]);
+      unseen.push_back(layout.labels[point] + " (point " + std::to_string(point + 1) + ")");
     }
   }
   if (points.empty()) bytes.Refuse(layout.data_offset, "no frame sees a marker");

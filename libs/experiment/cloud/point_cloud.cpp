@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "libs/core/error.hpp"
 #include "libs/experiment/cloud/pcd.hpp"
@@ -56,8 +57,9 @@ class Painter {
 }  // namespace
 
 PointCloud ReadPointCloud(const std::filesystem::path& file) {
-  if (file.extension() == ".pcd") return ReadPcd(file);
-  if (file.extension() == ".ply") return ReadPly(file);
+  const std::string ending = file.extension().string();
+  if (ending == ".pcd" || ending == ".PCD") return ReadPcd(file);
+  if (ending == ".ply" || ending == ".PLY") return ReadPly(file);
   throw InputError(SourceLocation{file.string()}, "is no point cloud (.pcd, .ply)");
 }
 

@@ -188,8 +188,12 @@ TEST(Command, SaysThatAMeshIsTooLargeForItsUnit) {
     EXPECT_EQ(RunCommand(words), 0);
     return testing::internal::GetCapturedStdout();
   };
-  EXPECT_THAT(output({"info", mesh}), testing::HasSubstr("warning: 80 m long: --unit mm?"));
-  EXPECT_THAT(output({"info", mesh, "--json"}), testing::HasSubstr("80 m long: --unit mm?"));
+  EXPECT_THAT(output({"info", mesh, "--unit", "m"}),
+              testing::HasSubstr("warning: 80 m long: --unit mm?"));
+  EXPECT_THAT(output({"info", mesh}),
+              testing::AllOf(testing::HasSubstr("does not say its unit of length"),
+                             testing::HasSubstr("--unit mm means 80 x"),
+                             testing::Not(testing::HasSubstr("m3"))));
   EXPECT_THAT(output({"info", mesh, "--unit", "mm"}), testing::Not(testing::HasSubstr("warning")));
 }
 

@@ -364,7 +364,7 @@ TEST_F(ImportVerbTest, RefusesOptionsThatDoNotFitTheData) {
   EXPECT_THAT(refusal([](O& o) { o.pose = "1,2,3"; }), HasSubstr("x,y,z,qx,qy,qz,qw"));
   EXPECT_THAT(refusal([](O& o) { o.kind = "rset"; }), HasSubstr("did you mean 'rest'"));
   EXPECT_THAT(refusal([](O& o) { o.recording = "a/b"; }), HasSubstr("plain name"));
-  EXPECT_THAT(refusal([](O& o) { o.file = "capture.txt"; }), HasSubstr("only .c3d and .csv"));
+  EXPECT_THAT(refusal([](O& o) { o.file = "capture.txt"; }), HasSubstr("capture.txt"));
   EXPECT_THAT(refusal([&](O& o) { o.robot = folder_ / "robot.yaml"; }),
               AllOf(HasSubstr("capture.csv:5:5"), HasSubstr("no marker 'd'")));
 }

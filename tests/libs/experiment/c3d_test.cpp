@@ -123,8 +123,59 @@ TEST(C3d, ReadsLabelsBeyondTheFirstParameterAndNamesTheRest) {
   content.frames.assign(2, std::vector<C3dContent::Point>(7));
   EXPECT_THAT(ReadBytes(WriteC3d(content)).tracks.names,
               ElementsAre("p0", "p1", "p2", "p3", "unlabelled_5", "p5", "p6"));
-  content.labels[6] = "p0";
-  EXPECT_THAT(BytesRefusal(WriteC3d(content)), HasSubstr("'p0' is given to two points"));
+}
+
+TEST(C3d, PointsOfOneLabelGetNumbersWhereBothAreSeen) {
+  C3dContent content = TwoPoints();
+  content.labels = {"side", "side"};
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content));
+  EXPECT_THAT(captured.tracks.names, ElementsAre("side_1", "side_2"));
+  EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("label 'side' is given to 2 points")));
+}
+
+TEST(C3d, LeavesPointsOutThatNoFrameSees) {
+  C3dContent content = TwoPoints();
+  content.labels = {"side", "side"};
+  for (auto& frame : content.frames) frame[1].seen = false;
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content));
+  EXPECT_THAT(captured.tracks.names, ElementsAre("side"));
+  EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("no frame sees")));
+  for (auto& frame : content.frames) frame[0].seen = false;
+  EXPECT_THAT(BytesRefusal(WriteC3d(content)), HasSubstr("no frame sees a marker"));
+}
+
+TEST(C3d, LeavesModelOutputsOut) {
+  C3dContent content = TwoPoints();
+  content.labels = {"tip", "KneeAngles"};
+  content.angles = {"KneeAngles"};
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content));
+  EXPECT_THAT(captured.tracks.names, ElementsAre("tip"));
+  EXPECT_NEAR(captured.tracks.frames[3].positions_m[0]->x(), 0.013, 1e-9);
+  EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("KneeAngles")));
+}
+
+TEST(C3d, EndsTheParametersWithTheirSection) {
+  for (const auto processor : {C3dProcessor::kIntel, C3dProcessor::kMips}) {
+    C3dContent content = TwoPoints();
+    content.processor = processor;
+    content.last_link_leads_nowhere = true;
+    EXPECT_EQ(ReadBytes(WriteC3d(content)).tracks.frames.size(), 20u);
+  }
+}
+
+TEST(C3d, TakesTheHeaderWhereAParameterIsZeroOrItsGroupHasNoName) {
+  C3dContent content = TwoPoints();
+  content.data_start_is_zero = true;
+  EXPECT_EQ(ReadBytes(WriteC3d(content)).tracks.frames.size(), 20u);
+  content.data_start_is_zero = false;
+  content.point_group_is_named = false;
+  EXPECT_THAT(ReadBytes(WriteC3d(content)).tracks.names, ElementsAre("tip", "Base-1"));
+}
+
+TEST(C3d, PassesOverAnotherGroupThatIsGivenTwice) {
+  C3dContent content = TwoPoints();
+  content.processing = {1.0, 2.0};
+  EXPECT_EQ(ReadBytes(WriteC3d(content)).tracks.frames.size(), 20u);
 }
 
 TEST(C3d, CountsTimeFromTheFirstFrameOfTheFile) {
@@ -153,10 +204,19 @@ TEST(C3d, RefusesAFileThatIsNoneOrContradictsItselfWithTheByte) {
   EXPECT_THAT(BytesRefusal(""), HasSubstr("at byte 0:"));
 }
 
-TEST(C3d, RefusesAPointThatIsNoFiniteNumber) {
+TEST(C3d, TakesNanForAPointThatWasNotSeen) {
   std::string bytes = WriteC3d(TwoPoints());
   const std::size_t data = bytes.size() - 1024;  // 20 frames of 32 bytes fill two blocks
   std::memcpy(bytes.data() + data, "\x00\x00\xc0\x7f", 4);
+  const CapturedMarkers captured = ReadBytes(bytes);
+  EXPECT_FALSE(captured.tracks.frames[0].positions_m[0].has_value());
+  EXPECT_TRUE(captured.tracks.frames[1].positions_m[0].has_value());
+}
+
+TEST(C3d, RefusesAPointThatIsInfinite) {
+  std::string bytes = WriteC3d(TwoPoints());
+  const std::size_t data = bytes.size() - 1024;
+  std::memcpy(bytes.data() + data, "\x00\x00\x80\x7f", 4);
   EXPECT_THAT(BytesRefusal(bytes),
               AllOf(HasSubstr("at byte " + std::to_string(data)), HasSubstr("coordinate")));
 }

@@ -53,12 +53,12 @@ class ParameterSection {
     out_.Byte(0x50);
     out_.Byte(2);
     out_.Byte(static_cast<int>(content_.processor));
-    Group(1, "POINT");
+    if (content_.point_group_is_named) Group(1, "POINT");
     Group(2, "TRIAL");
     const auto frame_count = static_cast<int>(content_.frames.size());
     Words(1, "USED", {static_cast<int>(content_.labels.size())});
     Words(1, "FRAMES", {std::min(frame_count, 65535)});
-    Words(1, "DATA_START", {data_block});
+    Words(1, "DATA_START", {content_.data_start_is_zero ? 0 : data_block});
     Reals(1, "SCALE", {content_.real_points ? -content_.scale : content_.scale});
     Reals(1, "RATE", {content_.rate_Hz});
     if (content_.long_frames) Reals(1, "LONG_FRAMES", {static_cast<double>(frame_count)});
@@ -68,6 +68,23 @@ class ParameterSection {
       const int last = content_.first_frame + frame_count - 1;
       Words(2, "ACTUAL_START_FIELD", {content_.first_frame & 0xffff, content_.first_frame >> 16});
       Words(2, "ACTUAL_END_FIELD", {last & 0xffff, last >> 16});
+    }
+    if (!content_.angles.empty()) {
+      Texts(1, "ANGLES", content_.angles);
+      Texts(1, "ANGLE_UNITS", {"deg"});
+      Texts(1, "TYPE_GROUPS", {"ANGLES"});
+    }
+    for (std::size_t k = 0; k < content_.processing.size(); ++k) {
+      const int group = 10 + static_cast<int>(k);
+      Group(group, "PROCESSING");
+      Reals(group, "MASS", {content_.processing[k]});
+    }
+    if (content_.last_link_leads_nowhere) {
+      Words(2, "LAST", {7});
+      // Behind the link stand the type, one dimension, its size, the value and the description.
+      const std::size_t link = out_.bytes().size() - 2 - 6;
+      out_.bytes()[link] = 0x01;
+      out_.bytes()[link + 1] = 0x3f;
     }
     out_.Byte(0);
     out_.PadToBlock();

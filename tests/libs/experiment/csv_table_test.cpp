@@ -51,9 +51,21 @@ TEST(CsvTable, RefusesQuotesThatItCannotTakeApart) {
   EXPECT_THAT(MessageOf([] { ParseTable("a,b\n\"1,5\",2\n"); }), HasSubstr("t.csv:2:1"));
 }
 
-TEST(CsvTable, NamesSemicolonsBetweenFields) {
-  EXPECT_THAT(MessageOf([] { ParseTable("t_s;x_m\n0;1,5\n"); }),
-              AllOf(HasSubstr("t.csv:1:4"), HasSubstr("separated by ';'")));
+TEST(CsvTable, ReadsSemicolonsWithDecimalCommasAndTabs) {
+  const CsvTable semicolons = ParseTable("t_s;x_m\n0;1,5\n0,25;-2e-3\n");
+  EXPECT_EQ(semicolons.Number(0, 1), 1.5);
+  EXPECT_EQ(semicolons.Number(1, 0), 0.25);
+  EXPECT_EQ(semicolons.Number(1, 1), -2e-3);
+  EXPECT_EQ(ParseTable("t_s\tx_m\n0\t1.5\n").Number(0, 1), 1.5);
+  EXPECT_THAT(MessageOf([] { ParseTable("t_s;x_m\n0,5;1.500\n").Number(0, 1); }),
+              HasSubstr("x_m '1.500'"));
+  EXPECT_THAT(MessageOf([] { ParseTable("t_s;x_m\n0;1;2\n"); }), HasSubstr("separated by ';'"));
+}
+
+TEST(CsvTable, NanIsAMissingSampleOnlyWhereOneIsAskedFor) {
+  const CsvTable table = ParseTable("x_m\nNaN\n");
+  EXPECT_EQ(table.OptionalSample(0, 0), std::nullopt);
+  EXPECT_THAT(MessageOf([&] { table.OptionalNumber(0, 0); }), HasSubstr("not a finite number"));
 }
 
 TEST(CsvTable, RefusesAFolder) {

@@ -40,10 +40,10 @@ void WriteWhole(const TestFolder& folder) {
   folder.Write(b + "markers.csv", kMarkers);
   folder.Write(b + "actuation.csv", kActuation);
   folder.Write(b + "loads.csv", kLoads);
-  folder.Write(b + "depth/2000.png", "later");
-  folder.Write(b + "depth/100.png", "first");
-  folder.Write(b + "color/100.png", "colour");
-  folder.Write(b + "clouds/5.ply", "cloud");
+  folder.Write(b + "depth/2000000.png", "later");
+  folder.Write(b + "depth/1000000.png", "first");
+  folder.Write(b + "color/1000000.png", "colour");
+  folder.Write(b + "clouds/5000000.ply", "cloud");
   folder.Write(b + "camera.yaml", "depth: {}\n");
   folder.Write("exp/recordings/a/recording.yaml", "kind: rest\n");
 }
@@ -77,10 +77,10 @@ void ExpectWhole(const Experiment& experiment) {
   EXPECT_EQ(b.markers->frames.size(), 2u);
   EXPECT_EQ(b.loads.size(), 1u);
   ASSERT_EQ(b.depth_images.size(), 2u);
-  EXPECT_EQ(b.depth_images[0].t_ns, 100);
-  EXPECT_EQ(b.depth_images[1].t_ns, 2000);
+  EXPECT_EQ(b.depth_images[0].t_ns, 1000000);
+  EXPECT_EQ(b.depth_images[1].t_ns, 2000000);
   EXPECT_EQ(b.color_images.size(), 1u);
-  EXPECT_EQ(b.clouds[0].file.filename(), "5.ply");
+  EXPECT_EQ(b.clouds[0].file.filename(), "5000000.ply");
   EXPECT_TRUE(b.camera_file.has_value());
 }
 

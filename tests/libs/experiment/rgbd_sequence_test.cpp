@@ -51,8 +51,8 @@ class RgbdSequenceTest : public testing::Test {
     folder_.Write(name + "/recording.yaml", "kind: free\n");
     folder_.Write(name + "/camera.yaml", rgbd::FormatCameraFile(Camera()));
     for (int i = first; i < first + 2; ++i) {
-      Depth_(name + "/depth/" + std::to_string(i) + ".png", static_cast<std::uint16_t>(i));
-      Color_(name + "/color/" + std::to_string(i) + ".png", static_cast<std::uint8_t>(i));
+      Depth_(name + "/depth/" + std::to_string(i) + "000000.png", static_cast<std::uint16_t>(i));
+      Color_(name + "/color/" + std::to_string(i) + "000000.png", static_cast<std::uint8_t>(i));
     }
   }
   std::vector<RgbdSequence> Open(const std::string& name = "") const {
@@ -74,20 +74,20 @@ TEST_F(RgbdSequenceTest, ReadsTheFramesOfARecordingByTime) {
   ASSERT_THAT(sequences[0].frames, SizeIs(2));
   rgbd::RgbdFrame frame;
   sequences[0].Read(1, &frame);
-  EXPECT_EQ(frame.stamp_ns, 8);
+  EXPECT_EQ(frame.stamp_ns, 8000000);
   EXPECT_EQ(frame.depth, Depth(8));
   EXPECT_EQ(frame.color, rgbd::ColorImage(4, 3, 8));
 }
 
 TEST_F(RgbdSequenceTest, ADepthImageMayDoWithoutColour) {
   WriteRecordingOf("r", 7);
-  fs::remove(folder_.path() / "r/color/7.png");
+  fs::remove(folder_.path() / "r/color/7000000.png");
   const auto sequences = Open("r");
   rgbd::RgbdFrame frame;
   sequences[0].Read(1, &frame);
   EXPECT_FALSE(frame.color.empty());
   sequences[0].Read(0, &frame);
-  EXPECT_EQ(frame.stamp_ns, 7);
+  EXPECT_EQ(frame.stamp_ns, 7000000);
   EXPECT_TRUE(frame.color.empty());
 }
 
@@ -99,12 +99,12 @@ TEST_F(RgbdSequenceTest, AnExperimentGivesTheRecordingsThatHoldImages) {
   const auto sequences = Open();
   ASSERT_THAT(sequences, SizeIs(2));
   EXPECT_EQ(sequences[0].name, "a");
-  EXPECT_EQ(sequences[1].frames[0].t_ns, 5);
+  EXPECT_EQ(sequences[1].frames[0].t_ns, 5000000);
 }
 
 TEST_F(RgbdSequenceTest, RefusesAColourImageWithoutDepth) {
   WriteRecordingOf("r", 7);
-  for (const char* stray : {"5", "9"}) {
+  for (const char* stray : {"5000000", "9000000"}) {
     Color_(std::string("r/color/") + stray + ".png", 1);
     EXPECT_THAT(Refusal("r"), AllOf(HasSubstr(std::string(stray) + ".png"),
                                     HasSubstr("no depth image of the same name")));
@@ -114,12 +114,12 @@ TEST_F(RgbdSequenceTest, RefusesAColourImageWithoutDepth) {
 
 TEST_F(RgbdSequenceTest, RefusesImagesWithoutACameraOrOfAnotherSize) {
   WriteRecordingOf("r", 7);
-  rgbd::WriteDepthPng(folder_.path() / "r/depth/7.png", rgbd::DepthImage(5, 3, 9));
-  rgbd::WriteColorPng(folder_.path() / "r/color/8.png", rgbd::ColorImage(4, 4, 9));
+  rgbd::WriteDepthPng(folder_.path() / "r/depth/7000000.png", rgbd::DepthImage(5, 3, 9));
+  rgbd::WriteColorPng(folder_.path() / "r/color/8000000.png", rgbd::ColorImage(4, 4, 9));
   const RgbdSequence sequence = Open("r")[0];
   rgbd::RgbdFrame frame;
   EXPECT_THAT(MessageOf([&] { sequence.Read(0, &frame); }),
-              AllOf(HasSubstr("7.png"), HasSubstr("is 5 x 3 pixels, its camera has 4 x 3")));
+              AllOf(HasSubstr("7000000.png"), HasSubstr("is 5 x 3 pixels, its camera has 4 x 3")));
   EXPECT_THAT(MessageOf([&] { sequence.Read(1, &frame); }), HasSubstr("is 4 x 4 pixels"));
   rgbd::RgbdCamera no_color = Camera();
   no_color.color.width_px = 0;
@@ -195,19 +195,19 @@ TEST_F(RgbdSequenceTest, MakesDepthImagesOfClouds) {
   organised.points_m.col(1).setConstant(std::numeric_limits<double>::quiet_NaN());
   organised.points_m(2, 2) = 70.0;  // farther than 65535 mm
   organised.colors_rgb.assign(36, 200);
-  WritePcd(organised, folder_.path() / "5.pcd");
+  WritePcd(organised, folder_.path() / "5000000.pcd");
   PointCloud loose;
   loose.width = 4;
   loose.points_m.resize(3, 4);
   loose.points_m << 0.05, 0.1, 9, 0.0,  // the first hides the second, the third is out of view
       0, 0, 0, 0,                       //
       0.5, 1, 1, -1;
-  WritePly(loose, folder_.path() / "9.ply");
+  WritePly(loose, folder_.path() / "9000000.ply");
   folder_.Write("camera.yaml", rgbd::FormatCameraFile(Camera()));
   const RgbdSequence sequence = Open()[0];
   rgbd::RgbdFrame frame;
   sequence.Read(0, &frame);
-  EXPECT_EQ(frame.stamp_ns, 5);
+  EXPECT_EQ(frame.stamp_ns, 5000000);
   EXPECT_THAT(frame.depth.values,
               ElementsAre(500, 0, 0, 500, 500, 500, 500, 500, 500, 500, 500, 500));
   EXPECT_EQ(frame.color.Pixel(0, 0)[1], 200);
@@ -221,7 +221,7 @@ TEST_F(RgbdSequenceTest, RefusesCloudsWithoutATimeOrACamera) {
   PointCloud cloud;
   cloud.points_m.resize(3, 0);
   cloud.height = 1;
-  WritePcd(cloud, folder_.path() / "5.pcd");
+  WritePcd(cloud, folder_.path() / "5000000.pcd");
   EXPECT_THAT(Refusal(), HasSubstr("has no camera.yaml"));
   WritePcd(cloud, folder_.path() / "scan.pcd");
   EXPECT_THAT(Refusal(), AllOf(HasSubstr("scan.pcd"), HasSubstr("nanoseconds")));

@@ -163,7 +163,17 @@ TEST(Png, RefusesDepthOfAnotherKind) {
   EXPECT_THAT(
       refusal(
           {.width = 1, .bit_depth = 16, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA, .bytes = "abcd"}),
-      HasSubstr("alpha"));
+      HasSubstr("16 bits of colour"));
+}
+
+TEST(Png, DropsAnAlphaChannelThatIsOpaqueThroughout) {
+  const TestFolder folder;
+  const ColorImage image = ReadColorPng(
+      Save(folder, {.color_type = PNG_COLOR_TYPE_RGB_ALPHA, .bytes = "abc\xff" "def\xff"}));
+  EXPECT_EQ(std::string(image.values.begin(), image.values.end()), "abcdef");
+  const ColorImage grey = ReadColorPng(
+      Save(folder, {.width = 1, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA, .bytes = "a\xff"}));
+  EXPECT_EQ(std::string(grey.values.begin(), grey.values.end()), "aaa");
 }
 
 TEST(Png, RefusesColourOfAnotherKind) {
@@ -173,7 +183,8 @@ TEST(Png, RefusesColourOfAnotherKind) {
   };
   EXPECT_THAT(refusal({.width = 1, .color_type = PNG_COLOR_TYPE_RGB_ALPHA, .bytes = "abcd"}),
               HasSubstr("alpha"));
-  EXPECT_THAT(refusal({.bytes = "ab", .transparent_black = true}), HasSubstr("transparent"));
+  EXPECT_THAT(refusal({.bytes = std::string("a\0", 2), .transparent_black = true}),
+              HasSubstr("transparent"));
   EXPECT_THAT(refusal({.bit_depth = 16, .bytes = "abcd"}),
               HasSubstr("8 bits a channel, this one has 16"));
 }

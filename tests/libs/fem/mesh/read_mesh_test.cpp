@@ -126,15 +126,36 @@ TEST(ReadMesh, TurnsAllCellsWhereTheConventionIsTheOppositeOneAndSaysSo) {
   }
 }
 
-TEST(ReadMesh, LeavesSingleInvertedCellsAsTheyAre) {
-  TetMesh mesh = CubeMesh(1);
-  std::swap(mesh.cells(0, 3), mesh.cells(1, 3));
+TEST(ReadMesh, TurnsSingleCellsThatWereOnlyWrittenTheOtherWayRound) {
+  for (const TetMesh& mesh : {CubeMesh(2), MakeQuadratic(CubeMesh(2))}) {
+    TetMesh mixed = mesh;
+    for (const int cell : {1, 3, 17}) {
+      mixed.cells.col(cell).row(1).swap(mixed.cells.col(cell).row(2));
+      if (mixed.cells.rows() == 4) continue;
+      mixed.cells.col(cell).row(4).swap(mixed.cells.col(cell).row(6));
+      mixed.cells.col(cell).row(8).swap(mixed.cells.col(cell).row(9));
+    }
+    std::vector<std::string> notes;
+    const test_support::TestFolder folder;
+    const TetMesh read =
+        ReadMesh(test::WriteMeshFile(folder, {"m.vtu", AsciiVtu(mixed)}), 1.0, &notes);
+    EXPECT_TRUE(test::SameMesh(read, mesh));
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("3 of 48 cells")));
+  }
+}
+
+TEST(ReadMesh, LeavesCellsAsTheyAreWhereANodeLiesBeyondAFace) {
+  TetMesh mesh = CubeMesh(2);
+  int middle = 0;
+  (mesh.nodes_m.colwise() - Eigen::Vector3d::Constant(0.5)).colwise().norm().minCoeff(&middle);
+  mesh.nodes_m.col(middle) += Eigen::Vector3d(0.9, 0.1, 0.05);
   std::vector<std::string> notes;
   const test_support::TestFolder folder;
   const TetMesh read =
       ReadMesh(test::WriteMeshFile(folder, {"m.vtu", AsciiVtu(mesh)}), 1.0, &notes);
   EXPECT_TRUE(test::SameMesh(read, mesh));
   EXPECT_THAT(notes, IsEmpty());
+  EXPECT_FALSE(ReportMesh(read).inverted_cells.empty());
 }
 
 TEST(ReadMesh, RefusesFilesThatAreMissingEmptyOrOfUnknownEnding) {
