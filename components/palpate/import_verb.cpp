@@ -199,7 +199,8 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
 }
 
 app::Verb ImportVerb() {
-  return {"import", "Convert a motion-capture file (C3D, CSV, TSV, TRC) to a recording of an experiment",
+  return {"import",
+          "Convert a motion-capture file (C3D, CSV, TSV, TRC) to a recording of an experiment",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<ImportOptions>();
             DeclareTarget(arguments, *options);

@@ -148,8 +148,8 @@ Findings Describe(const InfoOptions& options) {
   if (kind.family != FileKind::Family::kUnknown) return DescribeFile(target, kind);
   throw InputError(SourceLocation{target.string()},
                    "is of no kind that is known; it begins with " + BeginningOf(target) +
-                       ". A robot file is YAML and ends in .yaml, a mesh in " +
-                       fem::MeshEndings() + ", motion capture in .c3d, .csv, .tsv or .trc");
+                       ". A robot file is YAML and ends in .yaml, a mesh in " + fem::MeshEndings() +
+                       ", motion capture in .c3d, .csv, .tsv or .trc");
 }
 
 }  // namespace
@@ -171,9 +171,10 @@ app::Verb InfoVerb() {
                 "image, experiment, recording or TUM folder, or MCAP or .db3 file or folder of "
                 "them");
             arguments.Suggest("TARGET", KnownRobots());
-            arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"},
-                             "Length unit of a mesh file; without it lengths are those of the file; "
-                             "robot files name their own");
+            arguments.Choice(
+                "--unit", &options->unit, {"m", "cm", "mm"},
+                "Length unit of a mesh file; without it lengths are those of the file; "
+                "robot files name their own");
             arguments.Option("--png FILE", &options->png,
                              "PNG file to draw: the undeformed robot with its cables, markers and "
                              "contact candidates");

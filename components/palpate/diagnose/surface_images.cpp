@@ -39,8 +39,7 @@ rgbd::RgbdCamera SurfaceImages::Camera(int recording) { return SequenceOf(record
 const experiment::RgbdSequence& SurfaceImages::SequenceOf(int recording) {
   const auto known = sequences_.find(recording);
   if (known != sequences_.end()) return known->second;
-  return sequences_
-      .emplace(recording, OpenImages(experiment_.recordings[At(recording)]))
+  return sequences_.emplace(recording, OpenImages(experiment_.recordings[At(recording)]))
       .first->second;
 }
 

@@ -84,9 +84,8 @@ ShapeReplay::FirstFrames ShapeReplay::EstimateDepthBias(const Recording& recordi
   const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
   if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return {};
   const ReplayCount count =
-      Run({recording, OpenImages(recording),
-           std::get<Eigen::Isometry3d>(pose)},
-          frames, [](const ForceEstimate&) {});
+      Run({recording, OpenImages(recording), std::get<Eigen::Isometry3d>(pose)}, frames,
+          [](const ForceEstimate&) {});
   bias_recordings_[epoch_] = &recording;
   return {.frames = count.done, .ends_with_contact = count.ends_with_contact};
 }

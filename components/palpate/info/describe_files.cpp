@@ -31,9 +31,10 @@ std::vector<std::string> DoubtUnit(const Eigen::Vector3d& size_m, const std::str
   constexpr double kLongestRobot_m = 10.0;
   const double length_m = size_m.maxCoeff();
   if (unit.empty()) {
-    return {fmt::format("the file does not say its unit of length: --unit mm means {} mm, --unit m "
-                        "{} m",
-                        SizeText(size_m), SizeText(size_m))};
+    return {
+        fmt::format("the file does not say its unit of length: --unit mm means {} mm, --unit m "
+                    "{} m",
+                    SizeText(size_m), SizeText(size_m))};
   }
   if (!(length_m > kLongestRobot_m)) return {};
   const std::string smaller = unit == "mm" ? "" : "mm";
@@ -56,8 +57,7 @@ std::string UnitlessText(const fem::MeshReport& report) {
       report.node_count, report.cell_count, report.nodes_per_cell,
       SizeText(report.max_m - report.min_m), report.volume_m3, report.worst_quality,
       report.worst_cell, report.pieces, report.inverted_cells.size(),
-      report.degenerate_cells.size(), report.duplicate_cells.size(),
-      report.duplicate_nodes.size());
+      report.degenerate_cells.size(), report.duplicate_cells.size(), report.duplicate_nodes.size());
 }
 
 Findings DescribeCapture(const std::filesystem::path& file) {
@@ -70,9 +70,9 @@ Findings DescribeCapture(const std::filesystem::path& file) {
                 {"frames", frames.size()},
                 {"rate_Hz", captured.rate_Hz},
                 {"notes", captured.notes}};
-  found.text = fmt::format("  {} marker(s) in {} frames at {:g} Hz: {}\n",
-                           captured.tracks.names.size(), frames.size(), captured.rate_Hz,
-                           Listed(captured.tracks.names));
+  found.text =
+      fmt::format("  {} marker(s) in {} frames at {:g} Hz: {}\n", captured.tracks.names.size(),
+                  frames.size(), captured.rate_Hz, Listed(captured.tracks.names));
   for (const std::string& note : captured.notes) found.text += "  note: " + note + "\n";
   return found;
 }
@@ -87,10 +87,10 @@ Findings DescribeCloud(const std::filesystem::path& file) {
                 {"height", cloud.height},
                 {"colored", !cloud.colors_rgb.empty()},
                 {"note", note}};
-  found.text = fmt::format("  {} points{}, {}\n", cloud.points_m.cols(),
-                           cloud.organised() ? fmt::format(" ({} x {})", cloud.width, cloud.height)
-                                             : std::string(),
-                           cloud.colors_rgb.empty() ? "without colour" : "with colour");
+  found.text = fmt::format(
+      "  {} points{}, {}\n", cloud.points_m.cols(),
+      cloud.organised() ? fmt::format(" ({} x {})", cloud.width, cloud.height) : std::string(),
+      cloud.colors_rgb.empty() ? "without colour" : "with colour");
   if (!note.empty()) found.text += "  note: " + note + "\n";
   return found;
 }

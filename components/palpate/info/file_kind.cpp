@@ -57,7 +57,8 @@ constexpr std::array kOthers = std::to_array<KnownFile>({
     {"", " .svo .svo2 ", "recording of a ZED camera", kExportIt},
     {"", " .zdf ", "Zivid frame", "export it as PLY, and give the cloud"},
     {"", " .mkv .mp4 .avi .mov ", "video", kExportIt},
-    {"MATLAB 5.0", " .mat ", "MATLAB file", "write tables of it (writetable) in an experiment folder"},
+    {"MATLAB 5.0", " .mat ", "MATLAB file",
+     "write tables of it (writetable) in an experiment folder"},
     {"PK\x03\x04", " .npz .xlsx .zip .3mf ", "ZIP archive", "unpack it, or save its table as CSV"},
     {"\x93NUMPY", " .npy ", "NumPy array", "write it as the CSV of an experiment folder"},
     {"%PDF", " .pdf ", "PDF document", kNoVerb},
@@ -83,9 +84,8 @@ std::string LowerCaseEnding(const std::filesystem::path& file) {
 }
 
 bool IsText(std::string_view bytes) {
-  return std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) {
-    return c == 0 || (c < 0x20 && std::isspace(c) == 0);
-  });
+  return std::none_of(bytes.begin(), bytes.end(),
+                      [](unsigned char c) { return c == 0 || (c < 0x20 && std::isspace(c) == 0); });
 }
 
 std::optional<FileKind> ImageOrCloud(std::string_view head, const std::string& ending) {
@@ -112,9 +112,8 @@ std::optional<FileKind> ImageOrCloud(std::string_view head, const std::string& e
 std::optional<FileKind> Other(std::string_view head, const std::string& ending) {
   for (const KnownFile& known : kOthers) {
     const bool by_magic = !known.magic.empty() && head.starts_with(known.magic);
-    const bool by_ending =
-        known.magic.empty() && !ending.empty() &&
-        known.endings.find(" " + ending + " ") != std::string_view::npos;
+    const bool by_ending = known.magic.empty() && !ending.empty() &&
+                           known.endings.find(" " + ending + " ") != std::string_view::npos;
     if (!by_magic && !by_ending) continue;
     return FileKind{.family = Family::kOther,
                     .name = std::string(known.name),
@@ -134,7 +133,8 @@ FileKind KindOf(const std::filesystem::path& file) {
   const std::string head = ReadHead(file);
   const std::string ending = LowerCaseEnding(file);
   if (auto kind = ImageOrCloud(head, ending)) return *kind;
-  if (EndsAsSettings(ending) && IsText(head)) return {.family = Family::kSettings, .name = {}, .advice = {}};
+  if (EndsAsSettings(ending) && IsText(head))
+    return {.family = Family::kSettings, .name = {}, .advice = {}};
   if (const MeshKind mesh = fem::KindOfMesh(file, head); mesh != MeshKind::kNone) {
     return {.family = Family::kMesh,
             .mesh = mesh,
