@@ -80,8 +80,9 @@ void RefuseFrameNumbers(const std::vector<StampedFile>& files) {
   const auto steps = static_cast<std::int64_t>(files.size()) - 1;
   const bool too_near = steps > 0 && span_ns / steps < kShortestStep_ns;
   const bool padded = first.starts_with('0') && files.front().file.stem().string().size() > 1;
-  const bool small = files.size() == 1 && files[0].t_ns > 0 && files[0].t_ns < kShortestStep_ns;
-  if (!too_near && !padded && !small) return;
+  const bool one_small = files.size() == 1 && files[0].t_ns > 0 &&
+                         (padded || files[0].t_ns < kShortestStep_ns);
+  if (!too_near && !one_small) return;
   throw InputError(
       SourceLocation{files.front().file.parent_path().string()},
       "names are times in nanoseconds, and " + first +

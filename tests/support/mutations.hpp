@@ -10,8 +10,8 @@
 
 namespace palpate::test_support {
 
-/// Damages valid files as transfers and other programs do: bits, bytes, digits, cut ends, parts that
-/// are repeated or missing.
+/// Damages valid files as transfers and other programs do: bits, bytes, digits, cut ends, parts
+/// that are repeated or missing.
 class Mutations {
  public:
   explicit Mutations(unsigned seed) : random_(seed) {}

@@ -30,12 +30,12 @@ struct C3dContent {
   std::vector<std::string> labels;
   std::size_t labels_in_one_parameter = 255;
   std::size_t analog_values_per_frame = 0;
-  bool trial_fields = false;               ///< TRIAL:ACTUAL_START_FIELD and _END_FIELD
-  bool long_frames = false;                ///< POINT:LONG_FRAMES
-  bool data_start_is_zero = false;         ///< POINT:DATA_START
+  bool trial_fields = false;        ///< TRIAL:ACTUAL_START_FIELD and _END_FIELD
+  bool long_frames = false;         ///< POINT:LONG_FRAMES
+  bool data_start_is_zero = false;  ///< POINT:DATA_START
   bool last_link_leads_nowhere = false;
-  bool point_group_is_named = true;        ///< its record is there
-  std::vector<std::string> angles;         ///< POINT:ANGLES, in deg, and POINT:TYPE_GROUPS
+  bool point_group_is_named = true;  ///< its record is there
+  std::vector<std::string> angles;   ///< POINT:ANGLES, in deg, and POINT:TYPE_GROUPS
   /// A parameter PROCESSING:MASS for each, in a group of its own of that name.
   std::vector<double> processing;
   std::vector<std::vector<Point>> frames;  ///< [frame][label]

@@ -33,7 +33,8 @@ Eigen::Vector3d At_mm(const CapturedMarkers& captured, std::size_t frame, std::s
 
 // A rigid body with its rotation as a quaternion stands between the markers, as Motive writes it.
 const std::string kMotive =
-    "Format Version,1.24,Take Name,bench,Capture Frame Rate,200.000000,Export Frame Rate,100.000000,"
+    "Format Version,1.24,Take Name,bench,Capture Frame Rate,200.000000,Export Frame "
+    "Rate,100.000000,"
     "Total Exported Frames,3,Rotation Type,Quaternion,Length Units,Centimeters,Coordinate Space,"
     "Global\n"
     ",\n"
@@ -77,12 +78,12 @@ TEST(CaptureExports, RefusesAMotiveFileWithoutMarkersOrUnit) {
 
 // Nexus writes devices and trajectories one after the other, and velocities beside positions.
 TEST(CaptureExports, ReadsTheTrajectoriesOfNexus) {
-  const CapturedMarkers captured = Read(
-      "trial.csv",
-      "Devices\n1000\n,,Force\nFrame,Sub Frame,Fx\n,,N\n1,0,0.1\n1,1,0.2\n\n"
-      "Trajectories\n200\n,,Arm:tip,,,,,,Arm:base\n"
-      "Frame,Sub Frame,X,Y,Z,X',Y',Z',X,Y,Z\n,,mm,mm,mm,mm/s,mm/s,mm/s,mm,mm,mm\n"
-      "101,0,1,2,3,9,9,9,4,5,6\n102,0,1.5,2,3,9,9,9,,,\n\n");
+  const CapturedMarkers captured =
+      Read("trial.csv",
+           "Devices\n1000\n,,Force\nFrame,Sub Frame,Fx\n,,N\n1,0,0.1\n1,1,0.2\n\n"
+           "Trajectories\n200\n,,Arm:tip,,,,,,Arm:base\n"
+           "Frame,Sub Frame,X,Y,Z,X',Y',Z',X,Y,Z\n,,mm,mm,mm,mm/s,mm/s,mm/s,mm,mm,mm\n"
+           "101,0,1,2,3,9,9,9,4,5,6\n102,0,1.5,2,3,9,9,9,,,\n\n");
   EXPECT_THAT(captured.tracks.names, ElementsAre("Arm:tip", "Arm:base"));
   EXPECT_EQ(captured.rate_Hz, 200.0);
   ASSERT_EQ(captured.tracks.frames.size(), 2u);
@@ -117,10 +118,10 @@ TEST(CaptureExports, ReadsMarkersOfQualisysWithAndWithoutColumnTitles) {
 TEST(CaptureExports, TakesTheOriginsOfRigidBodiesOfQualisysForMarkers) {
   std::string row = "10\t20\t30";
   for (int k = 0; k < 13; ++k) row += "\t0.5";
-  const CapturedMarkers captured = Read(
-      "qtm6d.tsv",
-      "NO_OF_FRAMES\t1\nNO_OF_BODIES\t1\nFREQUENCY\t50\nDATA_INCLUDED\t6D\nBODY_NAMES\thub\n" +
-          row + "\n");
+  const CapturedMarkers captured =
+      Read("qtm6d.tsv",
+           "NO_OF_FRAMES\t1\nNO_OF_BODIES\t1\nFREQUENCY\t50\nDATA_INCLUDED\t6D\nBODY_NAMES\thub\n" +
+               row + "\n");
   EXPECT_THAT(captured.tracks.names, ElementsAre("hub"));
   EXPECT_TRUE(At_mm(captured, 0, 0).isApprox(Eigen::Vector3d(10, 20, 30)));
   EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("6D")));

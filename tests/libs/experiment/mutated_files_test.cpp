@@ -36,22 +36,23 @@ std::vector<ValidFile> ValidFiles(const test_support::TestFolder& folder) {
   cloud.colors_rgb.assign(9, 100);
   WritePly(cloud, folder / "c.ply");
   WritePcd(cloud, folder / "c.pcd");
-  return {{"a.c3d", WriteC3d(SomePoints(C3dProcessor::kIntel))},
-          {"b.c3d", WriteC3d(SomePoints(C3dProcessor::kMips))},
-          {"c.ply", ReadFile(folder / "c.ply")},
-          {"c.pcd", ReadFile(folder / "c.pcd")},
-          {"d.csv",
-           "Format Version,1.23,Export Frame Rate,100,Length Units,Meters\n\n,Type,Marker,Marker,"
-           "Marker\n,Name,a,a,a\n,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n"
-           "0,0.0,1,2,3\n1,0.01,1,2,3\n"},
-          {"e.csv",
-           "Trajectories\n100\n,,a\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,3\n"},
-          {"f.tsv",
-           "NO_OF_FRAMES\t1\nFREQUENCY\t50\nDATA_INCLUDED\t3D\nMARKER_NAMES\ta\n1\t2\t3\n4\t5\t6\n"},
-          {"g.trc",
-           "PathFileType\t4\nDataRate\tUnits\n100\tm\nFrame#\tTime\ta\n\t\tX1\tY1\tZ1\n"
-           "1\t0.1\t1\t2\t3\n2\t0.2\t1\t2\t3\n"},
-          {"h.csv", "t_s;marker;x_m;y_m;z_m\n0,0;a;0,1;0,2;0,3\n0,1;a;NaN;NaN;NaN\n"}};
+  return {
+      {"a.c3d", WriteC3d(SomePoints(C3dProcessor::kIntel))},
+      {"b.c3d", WriteC3d(SomePoints(C3dProcessor::kMips))},
+      {"c.ply", ReadFile(folder / "c.ply")},
+      {"c.pcd", ReadFile(folder / "c.pcd")},
+      {"d.csv",
+       "Format Version,1.23,Export Frame Rate,100,Length Units,Meters\n\n,Type,Marker,Marker,"
+       "Marker\n,Name,a,a,a\n,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n"
+       "0,0.0,1,2,3\n1,0.01,1,2,3\n"},
+      {"e.csv",
+       "Trajectories\n100\n,,a\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,3\n"},
+      {"f.tsv",
+       "NO_OF_FRAMES\t1\nFREQUENCY\t50\nDATA_INCLUDED\t3D\nMARKER_NAMES\ta\n1\t2\t3\n4\t5\t6\n"},
+      {"g.trc",
+       "PathFileType\t4\nDataRate\tUnits\n100\tm\nFrame#\tTime\ta\n\t\tX1\tY1\tZ1\n"
+       "1\t0.1\t1\t2\t3\n2\t0.2\t1\t2\t3\n"},
+      {"h.csv", "t_s;marker;x_m;y_m;z_m\n0,0;a;0,1;0,2;0,3\n0,1;a;NaN;NaN;NaN\n"}};
 }
 
 void ReadOne(const std::filesystem::path& file) {

@@ -47,9 +47,9 @@ class StampedFolder : public testing::Test {
                                      std::optional<double> rate_Hz = {}) {
     for (const std::string& name : names) folder_.Write("clouds/" + name, "x");
     std::vector<std::int64_t> times_ns;
-    for (const StampedFile& file :
-         ListStampedFiles(folder_ / "clouds",
-                          {.extensions = {".ply"}, .skip_others = false, .frame_rate_Hz = rate_Hz})) {
+    for (const StampedFile& file : ListStampedFiles(
+             folder_ / "clouds",
+             {.extensions = {".ply"}, .skip_others = false, .frame_rate_Hz = rate_Hz})) {
       times_ns.push_back(file.t_ns);
     }
     return times_ns;
@@ -64,7 +64,9 @@ TEST_F(StampedFolder, NamesAreNanosecondsOrSecondsWithAPoint) {
 }
 
 TEST_F(StampedFolder, NumbersOfFramesAreRefused) {
-  EXPECT_THAT(MessageOf([&] { Times_ns({"0001.ply", "0002.ply", "0003.ply"}); }),
+  EXPECT_THAT(MessageOf([&] {
+                Times_ns({"0001.ply", "0002.ply", "0003.ply"});
+              }),
               AllOf(HasSubstr("0001.ply to 0003.ply look like numbers of frames"),
                     HasSubstr("frame_rate_Hz")));
 }
@@ -78,9 +80,9 @@ TEST_F(StampedFolder, ASingleFrameNumberIsRefusedAndTimeZeroIsNot) {
   const TestFolder other;
   other.Write("000001.ply", "x");
   EXPECT_THAT(MessageOf([&] {
-                ListStampedFiles(other.path(), {.extensions = {".ply"},
-                                                .skip_others = false,
-                                                .frame_rate_Hz = {}});
+                ListStampedFiles(
+                    other.path(),
+                    {.extensions = {".ply"}, .skip_others = false, .frame_rate_Hz = {}});
               }),
               HasSubstr("numbers of frames"));
 }
@@ -91,7 +93,9 @@ TEST_F(StampedFolder, SaysWhichNamesAreWanted) {
 }
 
 TEST_F(StampedFolder, RefusesOtherEndingsAndTwoOfOneTime) {
-  EXPECT_THAT(MessageOf([&] { Times_ns({"1.5.ply", "1500000000.ply"}); }),
+  EXPECT_THAT(MessageOf([&] {
+                Times_ns({"1.5.ply", "1500000000.ply"});
+              }),
               HasSubstr("has the same time as"));
   EXPECT_THAT(MessageOf([&] { Times_ns({"1000000000.xyz"}); }), HasSubstr("must end in .ply"));
 }

@@ -168,8 +168,9 @@ TEST(Png, RefusesDepthOfAnotherKind) {
 
 TEST(Png, DropsAnAlphaChannelThatIsOpaqueThroughout) {
   const TestFolder folder;
-  const ColorImage image = ReadColorPng(
-      Save(folder, {.color_type = PNG_COLOR_TYPE_RGB_ALPHA, .bytes = "abc\xff" "def\xff"}));
+  const ColorImage image = ReadColorPng(Save(folder, {.color_type = PNG_COLOR_TYPE_RGB_ALPHA,
+                                                      .bytes = "abc\xff"
+                                                               "def\xff"}));
   EXPECT_EQ(std::string(image.values.begin(), image.values.end()), "abcdef");
   const ColorImage grey = ReadColorPng(
       Save(folder, {.width = 1, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA, .bytes = "a\xff"}));

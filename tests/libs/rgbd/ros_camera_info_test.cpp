@@ -52,8 +52,7 @@ TEST(RosCameraInfo, DistortionMayHaveFourFiveOrEightNumbers) {
   const auto distortion = [](const std::string& model, const std::string& numbers) {
     return Read(Calibration(model, numbers) + "unit_m: 0.001\n").depth.distortion;
   };
-  EXPECT_EQ(distortion("plumb_bob", "[0.1, 0.2, 0.3, 0.4]"),
-            (std::array{0.1, 0.2, 0.3, 0.4, 0.0}));
+  EXPECT_EQ(distortion("plumb_bob", "[0.1, 0.2, 0.3, 0.4]"), (std::array{0.1, 0.2, 0.3, 0.4, 0.0}));
   EXPECT_EQ(distortion("rational_polynomial", "[0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0]"),
             (std::array{0.1, 0.2, 0.3, 0.4, 0.5}));
   EXPECT_EQ(distortion("none", "[]"), (std::array<double, 5>{}));
@@ -74,9 +73,10 @@ TEST(RosCameraInfo, AsksForTheUnitOfDepth) {
 
 TEST(CameraFile, DistortionMayHaveAZeroTailOrBeNone) {
   const auto with = [](const std::string& distortion) {
-    return Read("depth: {width_px: 4, height_px: 3, fx_px: 2, fy_px: 2, cx_px: 1, cy_px: 1, unit_m: "
-                "0.001, distortion: " +
-                distortion + "}\n")
+    return Read(
+               "depth: {width_px: 4, height_px: 3, fx_px: 2, fy_px: 2, cx_px: 1, cy_px: 1, unit_m: "
+               "0.001, distortion: " +
+               distortion + "}\n")
         .depth.distortion;
   };
   EXPECT_EQ(with("[0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0]"), (std::array{0.1, 0.2, 0.3, 0.4, 0.5}));

@@ -29,9 +29,9 @@ using testing::HasSubstr;
 
 std::string Lz4(const std::string& bytes) {
   std::string packed(static_cast<size_t>(LZ4_compressBound(static_cast<int>(bytes.size()))), '\0');
-  packed.resize(static_cast<size_t>(
-      LZ4_compress_default(bytes.data(), packed.data(), static_cast<int>(bytes.size()),
-                           static_cast<int>(packed.size()))));
+  packed.resize(static_cast<size_t>(LZ4_compress_default(bytes.data(), packed.data(),
+                                                         static_cast<int>(bytes.size()),
+                                                         static_cast<int>(packed.size()))));
   return packed;
 }
 
@@ -130,7 +130,8 @@ TEST(MeshFormats, LagrangeTetrahedraOfFourAndTenNodesAreTetrahedra) {
       "# vtk DataFile Version 4.2\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
       "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n71\n";
   EXPECT_EQ(ReadBytes({"m.vtk", bytes}).cells, Eigen::Vector4i(0, 1, 2, 3));
-  const std::string triangle = Replaced(Replaced(bytes, "1 5\n4 0 1 2 3", "1 4\n3 0 1 2"), "71", "69");
+  const std::string triangle =
+      Replaced(Replaced(bytes, "1 5\n4 0 1 2 3", "1 4\n3 0 1 2"), "71", "69");
   EXPECT_THAT(RefusalOf({"m.vtk", triangle}), HasSubstr("no tetrahedron"));
 }
 
@@ -206,7 +207,8 @@ TEST(MeshFormats, AbaqusGivesElementsAndTheirSets) {
 
 constexpr const char* kMedit =
     "MeshVersionFormatted 2\n# a comment\nDimension\n3\nVertices\n5\n0 0 0 1\n1 0 0 1\n0 1 0 1\n"
-    "0 0 1 1\n0 0 -1 1\nTriangles\n1\n1 2 3 4\nTetrahedra\n2\n1 2 3 4 0\n1 3 2 5 6\nCorners\n2\n1 2\n"
+    "0 0 1 1\n0 0 -1 1\nTriangles\n1\n1 2 3 4\nTetrahedra\n2\n1 2 3 4 0\n1 3 2 5 6\nCorners\n2\n1 "
+    "2\n"
     "End\n";
 
 TEST(MeshFormats, MeditGivesTetrahedraAndTheirReferences) {
