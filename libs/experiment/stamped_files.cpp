@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "libs/core/text.hpp"
 #include "libs/experiment/folders.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 /// No camera takes 10 000 frames a second: names nearer to each other are no nanoseconds.
 constexpr std::int64_t kShortestStep_ns = 100'000;
 constexpr std::int64_t kLargestExponent = 18;
-constexpr std::size_t kMostDigits_ns = 18;
+constexpr std::size_t kMostDigits_ns = 19;  // what an int64 holds; the parser refuses the rest
 
 bool AllDigits(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
@@ -118,7 +119,7 @@ bool ParseSeconds_ns(std::string_view text, std::int64_t* t_ns) {
   if (count - leading > kMostDigits_ns) return false;
   *t_ns = 0;
   if (count > leading && !ParseWhole(digits.substr(leading, count - leading), t_ns)) return false;
-  if (digits[count] >= '5') ++*t_ns;
+  if (digits[count] >= '5' && *t_ns < std::numeric_limits<std::int64_t>::max()) ++*t_ns;
   return true;
 }
 
