@@ -43,9 +43,8 @@ void MeshBuilder::AddNode(double x, double y, double z) {
 void MeshBuilder::AddVtkCell(int64_t vtk_type, std::span<const int64_t> nodes) {
   const CellKind kind = VtkCellKind(vtk_type, nodes.size());
   if (kind.role == CellRole::kRefused) {
-    FailAtCell("cells of type " + std::to_string(vtk_type) + " (" + kind.name + ", " +
-               std::to_string(nodes.size()) +
-               " nodes) are not read, only tetrahedra of 4 or 10 nodes");
+    FailAtCell("cells of type " + std::to_string(vtk_type) + " (" + kind.name +
+               ") are not read, only tetrahedra of 4 or 10 nodes");
   }
   if (kind.node_count > 0 && static_cast<size_t>(kind.node_count) != nodes.size()) {
     FailAtCell("has " + std::to_string(nodes.size()) + " nodes, a " + kind.name + " has " +

@@ -101,7 +101,7 @@ TEST(DamagedMesh, VtuRefusalsSayWhatIsWrong) {
       "cube.vtu", AsciiVtu(CubeMesh(1)),
       {{"UnstructuredGrid\" v", "PolyData\" v", "cube.vtu:2: <VTKFile> is of type 'PolyData'"},
        {"LittleEndian", "MiddleEndian", "byte_order 'MiddleEndian' is not read"},
-       {"UInt32\">", "UInt32\" compressor=\"vtkLZ4DataCompressor\">", "vtkLZ4DataCompressor"},
+       {"UInt32\">", "UInt32\" compressor=\"vtkBrotliDataCompressor\">", "vtkBrotliDataCompressor"},
        {"UInt32\">", "UInt8\">", "header_type 'UInt8'"},
        {"NumberOfPoints=\"8\"", "NumberOfPoints=\"9\"",
         "cube.vtu:6: array 'Points': holds 24 numbers instead of 27"},

@@ -81,9 +81,14 @@ std::filesystem::path WriteMeshFile(const test_support::TestFolder& folder, cons
 
 TetMesh ReadBytes(const MeshFile& file) {
   mesh_io::MeshBuilder builder(file.name);
-  if (file.name.ends_with(".vtu")) mesh_io::ReadVtu(file.bytes, &builder);
-  if (file.name.ends_with(".vtk")) mesh_io::ReadLegacyVtk(file.bytes, &builder);
-  if (file.name.ends_with(".msh")) mesh_io::ReadGmsh(file.bytes, &builder);
+  switch (KindOfMesh(file.name, file.bytes)) {
+    case MeshKind::kVtu: mesh_io::ReadVtu(file.bytes, &builder); break;
+    case MeshKind::kLegacyVtk: mesh_io::ReadLegacyVtk(file.bytes, &builder); break;
+    case MeshKind::kGmsh: mesh_io::ReadGmsh(file.bytes, &builder); break;
+    case MeshKind::kAbaqus: mesh_io::ReadAbaqus(file.bytes, &builder); break;
+    case MeshKind::kMedit: mesh_io::ReadMedit(file.bytes, &builder); break;
+    case MeshKind::kNone: ADD_FAILURE() << file.name; break;
+  }
   return std::move(builder).Finish(1.0, nullptr);
 }
 
