@@ -9,6 +9,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
+#include "libs/fem/mesh_io/mesh_kind.hpp"
 
 namespace palpate::fem::test {
 
