@@ -50,7 +50,9 @@ std::string Disagreement(const PixelCounts& pixels, double ratio, int least) {
   constexpr double kSmallest = 0.6, kLargest = 1.7;
   const std::string intro = "the depth image does not agree with the predicted robot: ";
   if (pixels.seen + pixels.hidden == 0) {
-    return intro + "no pixel has a depth where the robot is predicted";
+    return intro +
+           "no pixel has a depth near to where it is predicted: are the camera's pose and the unit "
+           "of depth (unit_m of camera.yaml) right?";
   }
   if (ratio < kSmallest || ratio > kLargest) {
     std::array<char, 32> factor{};
