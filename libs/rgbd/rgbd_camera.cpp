@@ -4,7 +4,6 @@
 #include "libs/rgbd/rgbd_camera.hpp"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 #include <vector>
 
@@ -21,148 +20,124 @@ namespace {
 
 constexpr int kLargestSize_px = 16384;
 constexpr int kLargestDepthValue = 65535;
-constexpr int kLongestDistortion = std::tuple_size_v<Distortion>;
-/// None, without k3, plumb_bob, rational.
-constexpr std::array<std::size_t, 4> kDistortionCounts{0, 4, 5, kLongestDistortion};
-constexpr std::size_t kRational = 8;
+constexpr int kRational = std::tuple_size_v<Distortion>;
 // A unit of 1 is one that was meant in millimetres, a baseline of 50 as well.
 constexpr NumberRule kUnitRule{.min = 0.0, .max = 0.1, .min_open = true};
 constexpr NumberRule kBaselineRule{.min = 0.0, .max = 2.0};
 
 Distortion ReadDistortion(const ConfigNode& node) {
-  const std::vector<double> values = ReadNumbers(node);
-  Distortion distortion{};
-  if (std::find(kDistortionCounts.begin(), kDistortionCounts.end(), values.size()) ==
-      kDistortionCounts.end()) {
+  const bool none = node.kind == ConfigNode::Kind::kScalar && node.text == "none";
+  const std::vector<double> values = none ? std::vector<double>() : ReadNumbers(node);
+  const auto distortion = DistortionOf(
+      values.size() == std::tuple_size_v<Distortion> ? "rational_polynomial" : "plumb_bob", values);
+  if (!distortion) {
     Refuse(node,
-           "must be [k1, k2, p1, p2, k3, k4, k5, k6], [k1, k2, p1, p2, k3], "
-           "[k1, k2, p1, p2] or [], not a list of " +
+           "must be [k1, k2, p1, p2, k3, k4, k5, k6], [k1, k2, p1, p2, k3], [k1, k2, p1, p2], [] "
+           "or none, not a list of " +
                std::to_string(values.size()));
-    /// Of eight numbers the last three must be 0: ROS' rational_polynomial is plumb_bob then.
-    std::array<double, 5> ReadDistortion(const ConfigNode& node) {
-      const bool none = node.kind == ConfigNode::Kind::kScalar && node.text == "none";
-      const std::vector<double> values = none ? std::vector<double>() : ReadNumbers(node);
-      const auto distortion =
-          DistortionOf(values.size() == kRational ? "rational_polynomial" : "plumb_bob", values);
-      if (!distortion) {
-        Refuse(node,
-               values.size() == kRational
-                   ? "k4 to k6 of [k1, k2, p1, p2, k3, k4, k5, k6] must be 0: a rational lens is "
-                     "not modelled; calibrate the camera with plumb_bob, or rectify its images"
-                   : "must be [k1, k2, p1, p2, k3], [k1, k2, p1, p2], [] or none, not a list of " +
-                         std::to_string(values.size()));
-      }
-      return *distortion;
-    }
+  }
+  return *distortion;
+}
 
-    std::vector<Key> ModelKeys() {
-      return {
-          {"width_px", value::WholeNumber(1, kLargestSize_px), kRequired, "Width of the image."},
+std::vector<Key> ModelKeys() {
+  return {{"width_px", value::WholeNumber(1, kLargestSize_px), kRequired, "Width of the image."},
           {"height_px", value::WholeNumber(1, kLargestSize_px), kRequired, "Height of the image."},
           {"fx_px", value::Real(kPositive), kRequired, "Focal length along u."},
           {"fy_px", value::Real(kPositive), kRequired, "Focal length along v."},
           {"cx_px", value::Real(), kRequired,
            "Principal point, u. The centre of pixel (0, 0) is at u = v = 0."},
           {"cy_px", value::Real(), kRequired, "Principal point, v."},
-          {"distortion", value::Numbers({}, 0, kLongestDistortion), kOptional,
+          {"distortion", value::Either({value::Numbers({}, 0, kRational), value::Choice({"none"})}),
+           kOptional,
            "Lens distortion `[k1, k2, p1, p2]`, `[k1, k2, p1, p2, k3]` or, of a rational model, "
-           "`[k1, k2, p1, p2, k3, k4, k5, k6]` in OpenCV's order. `[]` or absent: none."}};
-      {
-        "distortion", value::Either({value::Numbers({}, 0, kRational), value::Choice({"none"})}),
-            kOptional,
-            "Lens distortion `[k1, k2, p1, p2]` or `[k1, k2, p1, p2, k3]` in OpenCV's order; three "
-            "more must be 0. `[]`, `none` or absent: none."
-      }
-    };
-  }
+           "`[k1, k2, p1, p2, k3, k4, k5, k6]` in OpenCV's order. `[]`, `none` or absent: none."}};
+}
 
-  const KeyTable& DepthKeys() {
-    static const KeyTable keys = [] {
-      const RgbdCamera defaults;
-      KeyTable table{.title = "depth camera",
-                     .about =
-                         "Pinhole model of the depth camera. Its optical frame: x right, y down, "
-                         "z forward.",
-                     .keys = ModelKeys()};
-      table.keys.push_back(
-          {"unit_m", value::Real(kUnitRule), kRequired, "Depth of one step of the 16-bit image."});
-      table.keys.push_back({"invalid_value", value::WholeNumber(0, kLargestDepthValue),
-                            Default(defaults.invalid_value), "Value of a pixel without depth."});
-      table.keys.push_back({"baseline_m", value::Real(kBaselineRule), Default(defaults.baseline_m),
-                            "Baseline of a stereo camera. 0: unknown, or not a stereo camera."});
-      return table;
-    }();
-    return keys;
-  }
+const KeyTable& DepthKeys() {
+  static const KeyTable keys = [] {
+    const RgbdCamera defaults;
+    KeyTable table{.title = "depth camera",
+                   .about =
+                       "Pinhole model of the depth camera. Its optical frame: x right, y down, "
+                       "z forward.",
+                   .keys = ModelKeys()};
+    table.keys.push_back(
+        {"unit_m", value::Real(kUnitRule), kRequired, "Depth of one step of the 16-bit image."});
+    table.keys.push_back({"invalid_value", value::WholeNumber(0, kLargestDepthValue),
+                          Default(defaults.invalid_value), "Value of a pixel without depth."});
+    table.keys.push_back({"baseline_m", value::Real(kBaselineRule), Default(defaults.baseline_m),
+                          "Baseline of a stereo camera. 0: unknown, or not a stereo camera."});
+    return table;
+  }();
+  return keys;
+}
 
-  const KeyTable& ColorKeys() {
-    static const KeyTable keys = [] {
-      KeyTable table{.title = "colour camera",
-                     .about = "Pinhole model of the colour camera.",
-                     .keys = ModelKeys()};
-      table.keys.push_back(
-          {"registered_to_depth", value::Boolean(), Default(RgbdCamera{}.color_registered),
-           "Pixels are those of the depth image. The model must be that of `depth`."});
-      table.keys.push_back({"T_depth_color", value::Map(geometry::PoseKeys()), kOptional,
-                            "Pose of the colour camera: p_depth = T p_color. Required unless "
-                            "`registered_to_depth`."});
-      return table;
-    }();
-    return keys;
-  }
+const KeyTable& ColorKeys() {
+  static const KeyTable keys = [] {
+    KeyTable table{.title = "colour camera",
+                   .about = "Pinhole model of the colour camera.",
+                   .keys = ModelKeys()};
+    table.keys.push_back(
+        {"registered_to_depth", value::Boolean(), Default(RgbdCamera{}.color_registered),
+         "Pixels are those of the depth image. The model must be that of `depth`."});
+    table.keys.push_back({"T_depth_color", value::Map(geometry::PoseKeys()), kOptional,
+                          "Pose of the colour camera: p_depth = T p_color. Required unless "
+                          "`registered_to_depth`."});
+    return table;
+  }();
+  return keys;
+}
 
-  CameraModel ReadModel(MapReader & reader) {
-    CameraModel model;
-    reader.Read("width_px", &model.width_px);
-    reader.Read("height_px", &model.height_px);
-    reader.Read("fx_px", &model.fx_px);
-    reader.Read("fy_px", &model.fy_px);
-    reader.Read("cx_px", &model.cx_px);
-    reader.Read("cy_px", &model.cy_px);
-    if (const ConfigNode* node = reader.Optional("distortion")) {
-      model.distortion = ReadDistortion(*node);
-    }
-    return model;
+CameraModel ReadModel(MapReader& reader) {
+  CameraModel model;
+  reader.Read("width_px", &model.width_px);
+  reader.Read("height_px", &model.height_px);
+  reader.Read("fx_px", &model.fx_px);
+  reader.Read("fy_px", &model.fy_px);
+  reader.Read("cx_px", &model.cx_px);
+  reader.Read("cy_px", &model.cy_px);
+  if (const ConfigNode* node = reader.Optional("distortion")) {
+    model.distortion = ReadDistortion(*node);
   }
+  return model;
+}
 
-  void ReadDepthCamera(const ConfigNode& node, RgbdCamera* camera) {
-    MapReader reader(node, DepthKeys());
-    camera->depth = ReadModel(reader);
-    reader.Read("unit_m", &camera->depth_unit_m);
-    reader.Read("invalid_value", &camera->invalid_value);
-    reader.Read("baseline_m", &camera->baseline_m);
-    reader.Finish();
-  }
+void ReadDepthCamera(const ConfigNode& node, RgbdCamera* camera) {
+  MapReader reader(node, DepthKeys());
+  camera->depth = ReadModel(reader);
+  reader.Read("unit_m", &camera->depth_unit_m);
+  reader.Read("invalid_value", &camera->invalid_value);
+  reader.Read("baseline_m", &camera->baseline_m);
+  reader.Finish();
+}
 
-  void ReadColorCamera(const ConfigNode& node, RgbdCamera* camera) {
-    MapReader reader(node, ColorKeys());
-    camera->color = ReadModel(reader);
-    reader.Read("registered_to_depth", &camera->color_registered);
-    const ConfigNode* pose = reader.Optional("T_depth_color");
-    if (pose != nullptr) {
-      camera->T_depth_color = geometry::ReadPose(*pose);
-    } else if (!camera->color_registered) {
-      Refuse(node,
-             "key 'T_depth_color' is missing, and the colour image is not registered_to_depth");
-    }
-    reader.Finish();
-    if (camera->color_registered && !(camera->color == camera->depth)) {
-      Refuse(
-          node,
-          "an image that is registered_to_depth has the size, focal length, centre and distortion "
-          "of 'depth'");
-    }
+void ReadColorCamera(const ConfigNode& node, RgbdCamera* camera) {
+  MapReader reader(node, ColorKeys());
+  camera->color = ReadModel(reader);
+  reader.Read("registered_to_depth", &camera->color_registered);
+  const ConfigNode* pose = reader.Optional("T_depth_color");
+  if (pose != nullptr) {
+    camera->T_depth_color = geometry::ReadPose(*pose);
+  } else if (!camera->color_registered) {
+    Refuse(node, "key 'T_depth_color' is missing, and the colour image is not registered_to_depth");
   }
+  reader.Finish();
+  if (camera->color_registered && !(camera->color == camera->depth)) {
+    Refuse(node,
+           "an image that is registered_to_depth has the size, focal length, centre and distortion "
+           "of 'depth'");
+  }
+}
 
-  std::string FormatModel(const CameraModel& model) {
-    const auto numbers = model.coefficients();
-    const Eigen::Map<const Eigen::VectorXd> distortion(numbers.data(), ToIndex(numbers.size()));
-    return "  width_px: " + std::to_string(model.width_px) + "\n" +
-           "  height_px: " + std::to_string(model.height_px) + "\n" +
-           "  fx_px: " + FormatNumber(model.fx_px) + "\n  fy_px: " + FormatNumber(model.fy_px) +
-           "\n  cx_px: " + FormatNumber(model.cx_px) + "\n  cy_px: " + FormatNumber(model.cy_px) +
-           "\n  distortion: " + geometry::FormatVector(distortion) + "\n";
-  }
+std::string FormatModel(const CameraModel& model) {
+  const auto numbers = model.coefficients();
+  const Eigen::Map<const Eigen::VectorXd> distortion(numbers.data(), ToIndex(numbers.size()));
+  return "  width_px: " + std::to_string(model.width_px) + "\n" +
+         "  height_px: " + std::to_string(model.height_px) + "\n" +
+         "  fx_px: " + FormatNumber(model.fx_px) + "\n  fy_px: " + FormatNumber(model.fy_px) +
+         "\n  cx_px: " + FormatNumber(model.cx_px) + "\n  cy_px: " + FormatNumber(model.cy_px) +
+         "\n  distortion: " + geometry::FormatVector(distortion) + "\n";
+}
 
 }  // namespace
 

@@ -39,7 +39,7 @@ std::vector<double> ReadMatrix(const ConfigNode& node) {
   return ReadNumbers(*data);
 }
 
-std::array<double, 5> ReadLens(const ConfigNode& root) {
+Distortion ReadLens(const ConfigNode& root) {
   const ConfigNode* name = FindAny(root, {"distortion_model"});
   const ConfigNode* node = FindAny(root, {"distortion_coefficients", "d", "D"});
   if (node == nullptr) return {};
@@ -47,7 +47,7 @@ std::array<double, 5> ReadLens(const ConfigNode& root) {
   const auto distortion = DistortionOf(model, ReadMatrix(*node));
   if (distortion) return *distortion;
   Refuse(*node, "the lens '" + Excerpt(model) +
-                    "' is not modelled (plumb_bob, or rational_polynomial with k4 to k6 of 0): "
+                    "' is not modelled (plumb_bob of 4 or 5 numbers, rational_polynomial of 8): "
                     "calibrate the camera with plumb_bob, or rectify its images");
 }
 

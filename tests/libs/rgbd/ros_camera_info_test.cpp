@@ -52,11 +52,13 @@ TEST(RosCameraInfo, DistortionMayHaveFourFiveOrEightNumbers) {
   const auto distortion = [](const std::string& model, const std::string& numbers) {
     return Read(Calibration(model, numbers) + "unit_m: 0.001\n").depth.distortion;
   };
-  EXPECT_EQ(distortion("plumb_bob", "[0.1, 0.2, 0.3, 0.4]"), (std::array{0.1, 0.2, 0.3, 0.4, 0.0}));
+  EXPECT_EQ(distortion("plumb_bob", "[0.1, 0.2, 0.3, 0.4]"), (Distortion{0.1, 0.2, 0.3, 0.4}));
   EXPECT_EQ(distortion("rational_polynomial", "[0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0]"),
-            (std::array{0.1, 0.2, 0.3, 0.4, 0.5}));
-  EXPECT_EQ(distortion("none", "[]"), (std::array<double, 5>{}));
-  EXPECT_THAT(MessageOf([&] { distortion("rational_polynomial", "[0, 0, 0, 0, 0, 1, 0, 0]"); }),
+            (Distortion{0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(distortion("none", "[]"), Distortion{});
+  EXPECT_EQ(distortion("rational_polynomial", "[0, 0, 0, 0, 0, 1, 0, 0]"),
+            (Distortion{0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
+  EXPECT_THAT(MessageOf([&] { distortion("rational_polynomial", "[0.1, 0, 0, 0]"); }),
               HasSubstr("'rational_polynomial' is not modelled"));
   EXPECT_THAT(MessageOf([&] { distortion("equidistant", "[0.1, 0, 0, 0]"); }),
               HasSubstr("'equidistant' is not modelled"));
@@ -79,9 +81,9 @@ TEST(CameraFile, DistortionMayHaveAZeroTailOrBeNone) {
                distortion + "}\n")
         .depth.distortion;
   };
-  EXPECT_EQ(with("[0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0]"), (std::array{0.1, 0.2, 0.3, 0.4, 0.5}));
-  EXPECT_EQ(with("none"), (std::array<double, 5>{}));
-  EXPECT_EQ(with("[]"), (std::array<double, 5>{}));
+  EXPECT_EQ(with("[0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0]"), (Distortion{0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(with("none"), Distortion{});
+  EXPECT_EQ(with("[]"), Distortion{});
 }
 
 }  // namespace
