@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
-#include <utility>
 #include <string>
+#include <utility>
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"

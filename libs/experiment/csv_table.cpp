@@ -143,10 +143,10 @@ std::optional<double> CsvTable::OptionalSample(std::size_t row, std::size_t colu
 
 void CsvTable::FindDecimalComma() {
   double value = 0.0;
-  decimal_comma_ = separator_ != ',' &&
-                   std::any_of(cells_.begin(), cells_.end(), [&](std::string_view text) {
-                     return text.find(',') != std::string_view::npos && ParseWithComma(text, &value);
-                   });
+  decimal_comma_ =
+      separator_ != ',' && std::any_of(cells_.begin(), cells_.end(), [&](std::string_view text) {
+        return text.find(',') != std::string_view::npos && ParseWithComma(text, &value);
+      });
 }
 
 // Where commas are decimal a point could group thousands, and is refused.

@@ -96,9 +96,9 @@ Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
     recording.camera_file = file;
   }
   const auto list = [&](const char* images, const std::vector<std::string>& extensions) {
-    return ListStampedFiles(folder / images, {.extensions = extensions,
-                                              .skip_others = false,
-                                              .frame_rate_Hz = frame_rate_Hz});
+    return ListStampedFiles(
+        folder / images,
+        {.extensions = extensions, .skip_others = false, .frame_rate_Hz = frame_rate_Hz});
   };
   recording.depth_images = list("depth", {".png"});
   recording.color_images = list("color", {".png", ".jpg", ".jpeg"});

@@ -49,26 +49,27 @@ const KeyTable& RecordingKeys() {
   static const KeyTable keys{
       .title = "recording.yaml",
       .about = "What was done in one recording, and what differs from experiment.yaml.",
-      .keys = {{"kind", value::Choice(RecordingKindWords()), kRequired,
-                "What was done, see the kinds of recordings."},
-               {"frame", value::Choice({"robot", "camera"}), kOptional,
-                "Measurement frame of markers. Absent: that of experiment.yaml."},
-               {"base_tilt_deg", value::Numbers(kTiltRule, 2, 2), kOptional,
-                "`[a, b]`: the base was turned by R = Ry(b) Rx(a). The robot frame is fixed to the "
-                "base, so that gravity in it becomes R' g. Absent: not tilted."},
-               {"camera_on_base", value::Boolean(), Default(Recording{}.camera_on_base),
-                "The camera moves with a tilted base."},
-               {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
-                "Pose of the depth camera during this recording. Absent: that of experiment.yaml, "
-                "or unknown for `kind: camera_moved`."},
-               {"reference", value::Map(ReferenceKeys()), kOptional,
-                "Window from which marker displacements count. Absent: markers are positions."},
-               {"steady_window_s", value::Numbers({}, 2, 2), kOptional,
-                "`[begin, end]`: the static phase, begin < end. Absent: the whole recording."},
-               {"frame_rate_Hz", value::Real(kPositive), kOptional,
-                "Names in depth/, color/ and clouds/ end in the number of the frame, t_s = number / "
-                "frame_rate_Hz. Absent: names are times."},
-               {"notes", value::Text(), kOptional, "For people."}}};
+      .keys = {
+          {"kind", value::Choice(RecordingKindWords()), kRequired,
+           "What was done, see the kinds of recordings."},
+          {"frame", value::Choice({"robot", "camera"}), kOptional,
+           "Measurement frame of markers. Absent: that of experiment.yaml."},
+          {"base_tilt_deg", value::Numbers(kTiltRule, 2, 2), kOptional,
+           "`[a, b]`: the base was turned by R = Ry(b) Rx(a). The robot frame is fixed to the "
+           "base, so that gravity in it becomes R' g. Absent: not tilted."},
+          {"camera_on_base", value::Boolean(), Default(Recording{}.camera_on_base),
+           "The camera moves with a tilted base."},
+          {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
+           "Pose of the depth camera during this recording. Absent: that of experiment.yaml, "
+           "or unknown for `kind: camera_moved`."},
+          {"reference", value::Map(ReferenceKeys()), kOptional,
+           "Window from which marker displacements count. Absent: markers are positions."},
+          {"steady_window_s", value::Numbers({}, 2, 2), kOptional,
+           "`[begin, end]`: the static phase, begin < end. Absent: the whole recording."},
+          {"frame_rate_Hz", value::Real(kPositive), kOptional,
+           "Names in depth/, color/ and clouds/ end in the number of the frame, t_s = number / "
+           "frame_rate_Hz. Absent: names are times."},
+          {"notes", value::Text(), kOptional, "For people."}}};
   return keys;
 }
 

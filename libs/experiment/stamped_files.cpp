@@ -24,9 +24,8 @@ constexpr std::int64_t kLargestExponent = 18;
 constexpr std::size_t kMostDigits_ns = 19;  // what an int64 holds; the parser refuses the rest
 
 bool AllDigits(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isdigit(c) != 0;
-  });
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 bool ParseWhole(std::string_view text, std::int64_t* value) {
@@ -74,15 +73,17 @@ StampedFile Stamp(const fs::path& file, const FrameNames& names) {
 
 // Numbers of frames, as 0001 and 0002, would pass for nanoseconds.
 void RefuseFrameNumbers(const std::vector<StampedFile>& files) {
-  const auto is_whole = [](const StampedFile& file) { return AllDigits(file.file.stem().string()); };
+  const auto is_whole = [](const StampedFile& file) {
+    return AllDigits(file.file.stem().string());
+  };
   if (files.empty() || !std::all_of(files.begin(), files.end(), is_whole)) return;
   const std::string first = files.front().file.filename().string();
   const std::int64_t span_ns = files.back().t_ns - files.front().t_ns;
   const auto steps = static_cast<std::int64_t>(files.size()) - 1;
   const bool too_near = steps > 0 && span_ns / steps < kShortestStep_ns;
   const bool padded = first.starts_with('0') && files.front().file.stem().string().size() > 1;
-  const bool one_small = files.size() == 1 && files[0].t_ns > 0 &&
-                         (padded || files[0].t_ns < kShortestStep_ns);
+  const bool one_small =
+      files.size() == 1 && files[0].t_ns > 0 && (padded || files[0].t_ns < kShortestStep_ns);
   if (!too_near && !one_small) return;
   throw InputError(
       SourceLocation{files.front().file.parent_path().string()},

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kToleranceOfDiagonal = 1e-6;
 constexpr double kToleranceOfEdge = 1e-2;
-constexpr std::array<std::array<int, 3>, 4> kSeamFaces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+constexpr std::array<std::array<int, 3>, 4> kSeamFaces = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 constexpr std::array<std::array<int, 2>, 6> kSeamEdges = {
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 

@@ -190,8 +190,8 @@ class Decoder {
 
   /// Of an image that could have been transparent. Throws InputError where a pixel is.
   ColorImage OpaquePixels() {
-    const auto pixels = static_cast<std::size_t>(rows_.width_px) *
-                        static_cast<std::size_t>(rows_.height_px);
+    const auto pixels =
+        static_cast<std::size_t>(rows_.width_px) * static_cast<std::size_t>(rows_.height_px);
     std::vector<png_byte> rgba(4 * pixels);
     rows_.rows.clear();
     for (std::size_t v = 0; v < static_cast<std::size_t>(rows_.height_px); ++v) {

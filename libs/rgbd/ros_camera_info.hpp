@@ -13,8 +13,8 @@ namespace palpate::rgbd {
 bool IsRosCameraInfo(const ConfigNode& root);
 
 /// The depth camera of such a file. It does not tell the unit of depth: `unit_m` must be added to
-/// it; `invalid_value` and `baseline_m` may be. Rectification is not applied, so the distortion must
-/// be that of the images. Throws InputError with file:line:column, also for a lens that is no
+/// it; `invalid_value` and `baseline_m` may be. Rectification is not applied, so the distortion
+/// must be that of the images. Throws InputError with file:line:column, also for a lens that is no
 /// plumb_bob.
 RgbdCamera ReadRosCameraInfo(const ConfigNode& root);
 

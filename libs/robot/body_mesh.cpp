@@ -170,8 +170,8 @@ void CheckSize(const RobotDescription& robot, const fem::TetMesh& mesh) {
   const std::string unit = robot.mesh.metres_per_unit == 1.0    ? "m"
                            : robot.mesh.metres_per_unit == 1e-2 ? "cm"
                                                                 : "mm";
-  throw InputError(robot.mesh.where, "the body would be " + SizeText(size_m) + " large with unit: " +
-                                         unit + "; is the mesh in " +
+  throw InputError(robot.mesh.where, "the body would be " + SizeText(size_m) +
+                                         " large with unit: " + unit + "; is the mesh in " +
                                          (length_m > kLongest_m ? "mm" : "m") + "?");
 }
 

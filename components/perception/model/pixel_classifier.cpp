@@ -139,12 +139,12 @@ Status PixelClassifier::CheckAgreement(const PredictionView& prediction,
       (hidden ? pixels.hidden : pixels.seen) += 1;
     }
   }
-  const bool enough =
-      pixels.agree >= config_.min_robot_pixels &&
-      static_cast<double>(pixels.agree) >= tuning_.least_agreement * static_cast<double>(pixels.seen);
+  const bool enough = pixels.agree >= config_.min_robot_pixels &&
+                      static_cast<double>(pixels.agree) >=
+                          tuning_.least_agreement * static_cast<double>(pixels.seen);
   if (enough) return Status::Ok();
-  return Status(StatusCode::kNoRobotSeen, Disagreement(pixels, MedianRatio(prediction, region),
-                                                       config_.min_robot_pixels));
+  return Status(StatusCode::kNoRobotSeen,
+                Disagreement(pixels, MedianRatio(prediction, region), config_.min_robot_pixels));
 }
 
 void PixelClassifier::TakeSample(const RegisteredFrame& frame, const PixelRegion& region,

@@ -92,8 +92,8 @@ class PerceptionNode {
   std::string last_device_;
   Clock::time_point published_at_;
   Status last_state_ = Status::Ok();  ///< of the last message on /robot/mesh_state
-  RepetitionCheck repetition_;  ///< of depth images
-  Lateness lateness_;           ///< of frames
+  RepetitionCheck repetition_;        ///< of depth images
+  Lateness lateness_;                 ///< of frames
   dds::HealthCounts counts_;
   Status last_status_{StatusCode::kNotRun, "no images on /camera/depth/image_raw yet"};
   dds::InputMonitor inputs_;

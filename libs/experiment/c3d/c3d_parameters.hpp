@@ -20,7 +20,8 @@ class C3dParameters {
   /// Reads the section that begins at `offset` and sets the processor of `bytes` from it. The last
   /// parameter's link may lead anywhere outside of the section. A parameter of a group without a
   /// record is passed over, but for those that only POINT has. Throws InputError with the byte
-  /// offset for an unknown processor or type, or a parameter that does not end before the file does.
+  /// offset for an unknown processor or type, or a parameter that does not end before the file
+  /// does.
   C3dParameters(C3dBytes& bytes, std::size_t offset);
 
   bool Has(const std::string& name) const { return entries_.contains(name); }

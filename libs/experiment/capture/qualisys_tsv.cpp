@@ -73,13 +73,13 @@ CapturedMarkers ReadQualisysTsv(CaptureText& text) {
   double rate_Hz = 0.0;
   const std::string frequency = First(header, "FREQUENCY");
   if (!ParseFinite(frequency, &rate_Hz) || !(rate_Hz > 0.0)) {
-    throw InputError(SourceLocation{text.file()}, "FREQUENCY '" + Excerpt(frequency) +
-                                                      "' is no frame rate");
+    throw InputError(SourceLocation{text.file()},
+                     "FREQUENCY '" + Excerpt(frequency) + "' is no frame rate");
   }
   const std::size_t numbers_each = bodies ? kNumbersOfBody : kNumbersOfMarker;
   double value = 0.0;
-  const bool titles = !text.Cell(0).empty() ? !ParseFinite(text.Cell(0), &value)
-                                            : LowerCase(text.Cell(1)) == "x";
+  const bool titles =
+      !text.Cell(0).empty() ? !ParseFinite(text.Cell(0), &value) : LowerCase(text.Cell(1)) == "x";
   const std::size_t lead = LeadOf(text, titles, numbers_each * names.size());
   WideMarkers markers(text, {.metres_per_unit = kMillimetre_m, .zeros_are_gaps = true});
   for (std::size_t i = 0; i < names.size(); ++i) {

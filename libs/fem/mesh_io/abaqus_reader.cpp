@@ -175,7 +175,8 @@ class AbaqusReader {
 
   /// An element may go on over several lines.
   void TakeElement() {
-    for (const std::string_view part : Split(line_)) pending_.push_back(Integer(part, "an element"));
+    for (const std::string_view part : Split(line_))
+      pending_.push_back(Integer(part, "an element"));
     pending_line_ = line_number_;
     const size_t needed = static_cast<size_t>(type_) + 1;
     if (pending_.size() > needed) {

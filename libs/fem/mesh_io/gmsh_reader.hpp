@@ -80,8 +80,8 @@ class GmshReader {
   bool nodes_read_ = false;
   bool elements_read_ = false;
 
-  std::map<int64_t, std::string> volume_names_;   ///< by physical tag
-  std::map<int64_t, Groups> groups_of_volume_;    ///< 4: by entity tag
+  std::map<int64_t, std::string> volume_names_;  ///< by physical tag
+  std::map<int64_t, Groups> groups_of_volume_;   ///< 4: by entity tag
 };
 
 }  // namespace palpate::fem::mesh_io

@@ -70,8 +70,7 @@ void MeshBuilder::AddVtkCellData(const std::string& name, int64_t first_cell,
   }
   std::map<double, int> group_of_value;
   for (const double value : distinct) {
-    group_of_value[value] =
-        GroupNamed(name + "=" + std::to_string(static_cast<int64_t>(value)));
+    group_of_value[value] = GroupNamed(name + "=" + std::to_string(static_cast<int64_t>(value)));
   }
   for (size_t k = 0; k < values.size(); ++k) {
     const int tet = tet_of_vtk_cell_.at(static_cast<size_t>(first_cell) + k);

@@ -9,14 +9,15 @@
 
 namespace palpate::fem {
 
-/// Mesh formats, told apart by the first bytes of a file, and by its ending where these say nothing.
+/// Mesh formats, told apart by the first bytes of a file, and by its ending where these say
+/// nothing.
 enum class MeshKind {
   kNone,
   kVtu,        ///< VTK XML
   kLegacyVtk,  ///< "# vtk DataFile"
   kGmsh,
-  kAbaqus,     ///< .inp
-  kMedit,      ///< .mesh
+  kAbaqus,  ///< .inp
+  kMedit,   ///< .mesh
 };
 
 /// `bytes`: the beginning of the file, 1 kB or all of it.

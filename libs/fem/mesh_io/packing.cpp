@@ -29,7 +29,7 @@ bool UnpackLz4(std::string_view packed, size_t size, std::string* out) {
 }
 
 bool UnpackLzma(std::string_view packed, size_t size, std::string* out) {
-  constexpr size_t kGreatestRatio = 16384;       // twice that of a block of zeros
+  constexpr size_t kGreatestRatio = 16384;         // twice that of a block of zeros
   std::uint64_t memory_limit = 128 * 1024 * 1024;  // the decoder's, for the largest preset
   if (size / kGreatestRatio > packed.size()) return false;
   const size_t start = out->size();

@@ -39,9 +39,7 @@ class Scanner {
   void SkipPast(std::string_view mark);
 
   /// What Token or TokenOrEnd gave last.
-  std::string_view LastToken() const {
-    return bytes_.substr(last_start_, position_ - last_start_);
-  }
+  std::string_view LastToken() const { return bytes_.substr(last_start_, position_ - last_start_); }
 
   /// A number: a word of text, or `type` in binary. Refuses what is not finite.
   double Real(ScalarType type, const char* what);

@@ -18,8 +18,8 @@ namespace palpate::fem::mesh_io {
 
 /// How one .vtu file stores its numbers.
 struct VtuStorage {
-  std::string file;              ///< for messages
-  bool swap = false;             ///< byte order of the file is not that of this machine
+  std::string file;   ///< for messages
+  bool swap = false;  ///< byte order of the file is not that of this machine
   Packing packing = Packing::kNone;
   bool wide_header = false;      ///< header_type UInt64 instead of UInt32
   bool appended_base64 = false;  ///< AppendedData is base64, else raw

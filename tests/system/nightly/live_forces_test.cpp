@@ -34,8 +34,7 @@ constexpr seconds kPatience{40};
 /// Ten frames a second, for machines that have other things to do; the ball holds to the end.
 const std::string kScenario = "name: held\n" +
                               test_support::BodyOfAnotherModulus("four_leg_coarse.msh") +
-                              test_support::kBallBeforeASmallCamera +
-                              test_support::kBallThatHolds;
+                              test_support::kBallBeforeASmallCamera + test_support::kBallThatHolds;
 
 struct Push {
   std::string name;
