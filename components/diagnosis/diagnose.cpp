@@ -12,6 +12,7 @@
 #include "components/diagnosis/data/timebase.hpp"
 #include "components/diagnosis/design/next_experiment.hpp"
 #include "components/diagnosis/explain/identities.hpp"
+#include "components/diagnosis/explain/limits.hpp"
 #include "components/diagnosis/explain/model_error.hpp"
 #include "components/diagnosis/explain/verdict.hpp"
 #include "components/diagnosis/faults/catalogue.hpp"
@@ -232,8 +233,9 @@ void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
   DescribeVerdict(selection_, result);
   result->interrupted = limit_.IsStopped();
   if (result->interrupted) result->reason = "Interrupted, a partial report. " + result->reason;
-  DescribeCauses(observed_, *fitter_, selection_, result);
+  DescribeCauses(observed_, *fitter_, robot_, selection_, result);
   DescribeRivals(*hypotheses_, selection_, result);
+  if (!result->interrupted) DescribeLimits(*hypotheses_, selection_.null_model, result);
   result->residual_forces = FindResidualForces(observed_, *hypotheses_, selection_);
   result->identities = Identities(observed_);
 }
@@ -291,7 +293,8 @@ DiagnosisResult Unfit(const std::string& reason) {
   result.verdict = Verdict::kDataUnfit;
   result.reason = reason;
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  result.model_error = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  result.model_error = {kUnknown, kUnknown, kUnknown, kUnknown,
+                        kUnknown, kUnknown, kUnknown, kUnknown};
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include "components/diagnosis/joined_diagnosis.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace palpate::diagnosis {
 
@@ -22,7 +23,12 @@ double Excess(const std::vector<RecordingError>& recordings) {
 /// The model error was there as the robot file has it.
 void PutBefore(const DiagnosisResult& of_file, DiagnosisResult* result) {
   result->model_error.before_m = of_file.model_error.before_m;
-  result->model_error.heldout_before_m = of_file.model_error.heldout_before_m;
+  ErrorSummary& error = result->model_error;
+  error.null_model_m = of_file.model_error.null_model_m;
+  error.heldout_before_m = of_file.model_error.heldout_before_m;
+  // The finer mesh's own gain is not that of both.
+  error.heldout_gain_low_m = std::numeric_limits<double>::quiet_NaN();
+  error.heldout_gain_high_m = error.heldout_gain_low_m;
   for (std::size_t r = 0; r < result->recordings.size(); ++r) {
     result->recordings[r].before_m = of_file.recordings[r].before_m;
     result->recordings[r].null_model_m = of_file.recordings[r].null_model_m;

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <map>
@@ -154,6 +155,28 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
   }
 }
 
+/// Who made the extended robot file, and what it changes, as comments of YAML.
+std::string CommentOf(const diagnosis::Diagnosis& diagnosis) {
+  const diagnosis::DiagnosisResult& result = diagnosis.result;
+  std::vector<std::string> lines = {
+      "Written by palpate diagnose " + result.version + " from the robot file of " + result.robot,
+      "and " + result.data + " (" + result.data_hash + ").",
+      "It holds the named causes. The fitted tolerances, with which the report's errors are "
+      "computed, are left out."};
+  const std::vector<std::string> changes = diagnosis::ChangeTexts(result);
+  for (const std::string& change : changes) lines.push_back(change + ".");
+  if (changes.empty()) lines.emplace_back("No value is changed.");
+  for (const std::string& words : diagnosis.not_in_files)
+    lines.push_back("Not held by this file: " + words + ".");
+  std::string text;
+  for (std::string& line : lines) {
+    // Names come from the user: a line that ends early would be no comment.
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    text += "# " + line + "\n";
+  }
+  return text;
+}
+
 /// What another verb takes must not be there beside a partial report: that of an interrupted run
 /// is not written, and that of an earlier one is removed.
 void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
@@ -165,7 +188,8 @@ void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
   WriteFile(folder / "report.html", FormatReport(diagnosis->result));
   const diagnosis::DiagnosisResult& result = diagnosis->result;
   if (result.verdict == diagnosis::Verdict::kDataUnfit || result.interrupted) return;
-  WriteRobotFile(diagnosis->extended, folder / kRobotFile);
+  WriteFile(folder / kRobotFile,
+            CommentOf(*diagnosis) + FormatRobotFile(diagnosis->extended, folder));
   if (!diagnosis->calibration) return;
   robot::CalibrationFile& calibration = *diagnosis->calibration;
   calibration.date_utc = UtcText(std::time(nullptr));

@@ -179,7 +179,7 @@ LinearModel PredictProposals(const ObservedExperiment& planned, const robot::Rob
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     rest_m.col(ToIndex(m)) = body.markers[m].point.rest_m;
   }
-  return Linearise(planned, simulation, fit.z, rest_m, noise);
+  return Linearise(planned, simulation, hypotheses.Simulated(fit.z), rest_m, noise);
 }
 
 }  // namespace palpate::diagnosis

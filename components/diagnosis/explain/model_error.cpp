@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "libs/core/index.hpp"
@@ -38,10 +39,11 @@ struct Squares {
 /// [samples] [coordinates] measured - predicted; NaN: not known.
 using Residuals = std::vector<Eigen::VectorXd>;
 
+/// `from` [parameters]: what was simulated.
 Eigen::VectorXd Residual_m(const ObservedExperiment& observed, const Fit& fit, std::size_t sample,
-                           const Eigen::VectorXd& z) {
+                           const Eigen::VectorXd& from, const Eigen::VectorXd& z) {
   const SimulatedSample& simulated = fit.simulation.samples[sample];
-  const Eigen::VectorXd moved_m = simulated.jacobian_m * (z - fit.z);
+  const Eigen::VectorXd moved_m = simulated.jacobian_m * (z - from);
   Eigen::VectorXd measured_m(observed.CoordinateCount());
   for (Eigen::Index k = 0; k < measured_m.size(); ++k) {
     measured_m[k] = Measured_m(observed.samples[sample], k);
@@ -73,12 +75,13 @@ void TakeOffReference(const ObservedExperiment& observed, int recording, Residua
 }
 
 /// Of a fit at parameters, of each recording their own: z [recordings], or one for all.
-Residuals ResidualsOf(const ObservedExperiment& observed, const Fit& fit,
-                      const std::vector<Eigen::VectorXd>& z) {
+Residuals ResidualsOf(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
+                      const Fit& fit, const std::vector<Eigen::VectorXd>& z) {
+  const Eigen::VectorXd from = hypotheses.Simulated(fit.z);
   Residuals residuals_m;
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const auto r = static_cast<std::size_t>(observed.samples[s].recording);
-    residuals_m.push_back(Residual_m(observed, fit, s, z.size() == 1 ? z.front() : z[r]));
+    residuals_m.push_back(Residual_m(observed, fit, s, from, z.size() == 1 ? z.front() : z[r]));
   }
   for (int r = 0; r < std::ssize(observed.recordings); ++r) {
     TakeOffReference(observed, r, &residuals_m);
@@ -132,8 +135,9 @@ using Parameters = std::vector<Eigen::VectorXd>(const HypothesisSet&, const Fit&
 std::vector<Eigen::VectorXd> LeftOut(const HypothesisSet& hypotheses, const Fit& fit,
                                      const std::vector<int>& causes) {
   std::vector<Eigen::VectorXd> z;
+  const Eigen::VectorXd scale = hypotheses.InferScale(fit.model.All(), causes);
   for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
-    z.push_back(hypotheses.InferWithin(fit.model.AllBut(r), causes).mean);
+    z.push_back(hypotheses.InferWithin(fit.model.AllBut(r), causes, scale).mean);
   }
   return z;
 }
@@ -148,7 +152,7 @@ double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& h
   const Fit& best = selection.best;
   const Fit& null_model = selection.null_model;
   const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
-    return ResidualsOf(observed, fit, parameters(hypotheses, fit, causes));
+    return ResidualsOf(observed, hypotheses, fit, parameters(hypotheses, fit, causes));
   };
   std::vector<int> others = best.faults;
   std::erase(others, cause);
@@ -174,6 +178,31 @@ double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& h
     back_m2 += std::max(0.0, without[r].sum_m2 - floor_m2);
   }
   return excess_m2 > 0.0 ? std::min(back_m2 / excess_m2, 1.0) : 0.0;
+}
+
+/// Recordings are drawn again, with replacement, as the parts of an experiment that are
+/// independent.
+void FindGainInterval(const std::vector<Sums>& recordings, ErrorSummary* error) {
+  constexpr int kDraws = 1000;
+  constexpr double kTail = 0.025;
+  std::mt19937_64 random(1);
+  std::uniform_int_distribution<std::size_t> any(0, recordings.size() - 1);
+  std::vector<double> gains_m;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Sums all;
+    for (std::size_t r = 0; r < recordings.size(); ++r) {
+      const Sums& one = recordings[any(random)];
+      all.heldout_before.Add(one.heldout_before);
+      all.heldout_after.Add(one.heldout_after);
+    }
+    const double gain_m = all.heldout_before.Rms_m() - all.heldout_after.Rms_m();
+    if (std::isfinite(gain_m)) gains_m.push_back(gain_m);
+  }
+  if (gains_m.empty()) return;
+  std::sort(gains_m.begin(), gains_m.end());
+  const auto tail = static_cast<std::size_t>(kTail * static_cast<double>(gains_m.size()));
+  error->heldout_gain_low_m = gains_m[tail];
+  error->heldout_gain_high_m = gains_m[gains_m.size() - 1 - tail];
 }
 
 void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& body,
@@ -213,13 +242,14 @@ void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBo
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(hypotheses.parameter_count());
   const Fit& best = selection.best;
   const Fit& null_model = selection.null_model;
-  const Residuals before_m = ResidualsOf(observed, as_built, {none});
-  const Residuals null_model_m = ResidualsOf(observed, null_model, {null_model.posterior.mean});
-  const Residuals after_m = ResidualsOf(observed, best, {best.posterior.mean});
-  const Residuals heldout_before_m =
-      ResidualsOf(observed, null_model, LeftOut(hypotheses, null_model, null_model.faults));
+  const Residuals before_m = ResidualsOf(observed, hypotheses, as_built, {none});
+  const Residuals null_model_m =
+      ResidualsOf(observed, hypotheses, null_model, {null_model.posterior.mean});
+  const Residuals after_m = ResidualsOf(observed, hypotheses, best, {best.posterior.mean});
+  const Residuals heldout_before_m = ResidualsOf(
+      observed, hypotheses, null_model, LeftOut(hypotheses, null_model, null_model.faults));
   const Residuals heldout_after_m =
-      ResidualsOf(observed, best, LeftOut(hypotheses, best, best.faults));
+      ResidualsOf(observed, hypotheses, best, LeftOut(hypotheses, best, best.faults));
   std::vector<Sums> sums(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];
@@ -251,15 +281,19 @@ void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBo
                                   .heldout_after_m = one.heldout_after.Rms_m(),
                                   .noise_m = one.noise.Rms_m()});
     all.before.Add(one.before);
+    all.null_model.Add(one.null_model);
     all.after.Add(one.after);
+    all.heldout_before.Add(one.heldout_before);
     all.heldout_after.Add(one.heldout_after);
     all.noise.Add(one.noise);
   }
   result->model_error = {.before_m = all.before.Rms_m(),
+                         .null_model_m = all.null_model.Rms_m(),
                          .after_m = all.after.Rms_m(),
-                         .heldout_before_m = all.before.Rms_m(),
+                         .heldout_before_m = all.heldout_before.Rms_m(),
                          .heldout_after_m = all.heldout_after.Rms_m(),
                          .noise_m = all.noise.Rms_m()};
+  if (!best.faults.empty()) FindGainInterval(sums, &result->model_error);
 }
 
 }  // namespace palpate::diagnosis

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "components/diagnosis/explain/file_terms.hpp"
 #include "components/diagnosis/explain/model_error.hpp"
 #include "components/diagnosis/inference/confusability_of_faults.hpp"
 #include "components/diagnosis/inference/model_averaging.hpp"
@@ -22,7 +23,8 @@ namespace {
 constexpr double kOtherAtLeast = 0.01;
 constexpr double kOtherWhereNoneIsNamed = 0.5;
 
-NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, const Fit& fit,
+NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter,
+                    const robot::RobotDescription& robot, const Fit& fit,
                     const std::vector<FurtherFault>& further, double other_probability,
                     const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
@@ -39,7 +41,8 @@ NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, co
                    .probability = (1.0 - other_probability) * choice.probability,
                    .ln_bayes_factor = choice.ln_bayes_factor,
                    .cross_validated = choice.cross_validation.clear,
-                   .seen_in = {}};
+                   .seen_in = {},
+                   .in_file = ChangesInFiles(cause, z, covariance, robot)};
   for (std::size_t r = 0; r < choice.ln_gain_of_recording.size(); ++r) {
     if (choice.ln_gain_of_recording[r] > kSeen) {
       named.seen_in.push_back(observed.recordings[r].name);
@@ -77,7 +80,8 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
     result->reason = "The first cause is not identifiable: other faults fit these data as well.";
   } else {
     result->verdict = Verdict::kCause;
-    result->reason = "The named causes explain the residuals.";
+    result->reason =
+        "With the named causes the residuals are within noise and manufacturing tolerances.";
   }
   result->residual_test = {goodness_of_fit.passed, goodness_of_fit.worst, goodness_of_fit.surprise,
                            goodness_of_fit.surprise_limit, goodness_of_fit.excess};
@@ -89,13 +93,14 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
 }
 
 void DescribeCauses(const ObservedExperiment& observed, const Fitter& fitter,
-                    const Selection& selection, DiagnosisResult* result) {
+                    const robot::RobotDescription& robot, const Selection& selection,
+                    DiagnosisResult* result) {
   result->other_probability = OtherProbability(fitter.hypotheses(), selection);
   if (selection.named.empty()) return;
   const std::vector<FurtherFault> further = FurtherFaults(fitter, selection.best);
   for (const Choice& choice : selection.named) {
-    NamedCause named =
-        Describe(observed, fitter, selection.best, further, result->other_probability, choice);
+    NamedCause named = Describe(observed, fitter, robot, selection.best, further,
+                                result->other_probability, choice);
     named.explained_share = ExplainedShare(observed, fitter.hypotheses(), selection, choice.fault);
     result->causes.push_back(std::move(named));
   }

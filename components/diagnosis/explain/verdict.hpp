@@ -12,9 +12,10 @@ namespace palpate::diagnosis {
 void DescribeVerdict(const Selection& selection, DiagnosisResult* result);
 
 /// Fills the named causes, with intervals averaged over places and further faults, and the
-/// probability of an unmodelled cause.
+/// probability of an unmodelled cause. `robot`: the file that they change.
 void DescribeCauses(const ObservedExperiment& observed, const Fitter& fitter,
-                    const Selection& selection, DiagnosisResult* result);
+                    const robot::RobotDescription& robot, const Selection& selection,
+                    DiagnosisResult* result);
 
 /// Fills what was not named: probabilities of the hypotheses for the first place, no fault among
 /// them, and the canonical correlations. Needs DescribeCauses.

@@ -115,7 +115,7 @@ class DriveCouplingFault final : public FaultModel {
                      int by_index)
       : FaultModel({"drive_coupling", {"cable:" + driven.name, "cable:" + by.name}},
                    "cable " + driven.name + " coupled to cable " + by.name,
-                   {{.name = "coupling", .fault = 0.1}}),
+                   {{.name = "coupling", .tolerance = 0.005, .fault = 0.1}}),
         driven_(driven_index),
         by_(by_index) {}
 

@@ -85,6 +85,7 @@ std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& inputs,
   for (const Entry& entry : kCatalogue) {
     if (!IndexOf(entry.id, without)) entry.make(inputs, &faults);
   }
+  MakeModelDiscrepancy(inputs, &faults);
   MakeAnchorCompliance(inputs, &faults);
   MakeExtrinsics(inputs, &faults);
   MakeDepthBias(inputs, &faults);

@@ -23,9 +23,9 @@ struct CatalogueInputs {
 };
 
 /// Every fault of the catalogue at every place of this robot where it can show in these data, and
-/// `cable_ends`, `extrinsics`, `depth_bias`, `stereo_ripple` and `skin_offset`, which are never
-/// faults. `without`: ids that are left out. Throws InputError for one that is not of the
-/// catalogue.
+/// `model_discrepancy`, `cable_ends`, `extrinsics`, `depth_bias`, `stereo_ripple` and
+/// `skin_offset`, which are never faults. `without`: ids that are left out. Throws InputError for
+/// one that is not of the catalogue.
 std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& inputs,
                                            const std::vector<std::string>& without);
 

@@ -46,6 +46,7 @@ void MakeMarkerMisplacement(const CatalogueInputs& inputs, std::vector<FaultMode
 void MakeDiscretisation(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeExtrinsics(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeAnchorCompliance(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeModelDiscrepancy(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeDepthBias(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeStereoRipple(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeSurfaceOffset(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);

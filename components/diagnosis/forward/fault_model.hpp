@@ -25,6 +25,11 @@
 
 namespace palpate::diagnosis {
 
+/// Nuisance parameters with one common deviation, which is not assumed: it is inferred from the
+/// data (inference/group_scale.hpp). Their tolerances count in units of it.
+enum class DiscrepancyGroup { kNone = -1, kCables, kStiffness };
+inline constexpr int kDiscrepancyGroups = 2;
+
 /// One number of a fault. Inside, it is counted as z, 0 for the robot as its file has it, so that
 /// every prior is a normal distribution of z about 0.
 struct FaultParameter {
@@ -50,6 +55,7 @@ struct FaultParameter {
   /// Of |z|: a larger one is not plausible, another fault has its effect
   /// (docs/theory/model_selection.md, Forward selection).
   double plausible = std::numeric_limits<double>::infinity();
+  DiscrepancyGroup group = DiscrepancyGroup::kNone;
 
   double ValueOf(double z) const {
     switch (scale) {
@@ -131,6 +137,9 @@ class FaultModel {
   /// Whether more is known of the robot file that it extends than what Apply makes: once it is
   /// named, the search begins again with that.
   virtual bool RestartsSearch() const { return false; }
+  /// Whether Apply does nothing, and what the others say is added to what is simulated: it is
+  /// linear at any size.
+  virtual bool AddsToPrediction() const { return false; }
   /// Whether Apply changes the actuators: their derivative is a difference of two of their runs.
   virtual bool OnActuators() const { return false; }
   /// Whether OnBody leaves out at `z` what matters, as of a body that answers to its own past: then

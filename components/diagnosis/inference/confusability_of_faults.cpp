@@ -30,7 +30,8 @@ constexpr ConfusabilityTuning kConfusabilityTuning;
 class BesideTolerances {
  public:
   BesideTolerances(const HypothesisSet& hypotheses, const Information& data)
-      : hypotheses_(hypotheses), tolerance_(hypotheses.PriorWith({}).sigma) {
+      : hypotheses_(hypotheses),
+        tolerance_(hypotheses.PriorWith({}, hypotheses.InferScale(data, {})).sigma) {
     std::vector<Eigen::Index> free;
     for (Eigen::Index p = 0; p < tolerance_.size(); ++p) {
       if (tolerance_[p] > 0.0) free.push_back(p);

@@ -4,6 +4,7 @@
 #include "components/diagnosis/inference/cross_validation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palpate::diagnosis {
 
@@ -11,8 +12,8 @@ namespace {
 
 /// A larger share rejects faults that help little; the floor avoids a division by zero.
 struct CrossValidationTuning {
-  double least_share = 0.03;   ///< of the misfit beyond the noise that must go
-  double least_beyond = 0.01;  ///< of the noise, taken for the misfit beyond it
+  double least_share = 0.1;     ///< of the misfit beyond the noise that must go
+  double scatter_sigmas = 2.0;  ///< of chi-squared, at least taken for the misfit beyond it
 };
 constexpr CrossValidationTuning kCrossValidationTuning;
 
@@ -27,7 +28,7 @@ CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& 
   for (std::size_t r = 0; r < model.of_recording.size(); ++r) {
     const Information& own = model.of_recording[r];
     const Information others = model.AllBut(r);
-    const Posterior posterior = hypotheses.InferWithin(others, faults);
+    const Posterior posterior = hypotheses.InferWithin(others, faults, all.scale);
     const auto J = model.J.middleRows(first, own.rows);
     auto residual = out.residual.segment(first, own.rows);
     residual -= J * posterior.mean;
@@ -48,7 +49,8 @@ CrossValidationGain Compare(const CrossValidation& before, const CrossValidation
     chi_after += after.chi_squared[r];
   }
   const double noise = static_cast<double>(before.residual.size());
-  const double beyond = std::max(chi_before - noise, kCrossValidationTuning.least_beyond * noise);
+  const double scatter = kCrossValidationTuning.scatter_sigmas * std::sqrt(2.0 * noise);
+  const double beyond = std::max(chi_before - noise, scatter);
   gain.relative = (chi_before - chi_after) / beyond;
   gain.clear = gain.relative > kCrossValidationTuning.least_share && gain.ln_gain > 0.0;
   return gain;

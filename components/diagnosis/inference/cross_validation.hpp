@@ -22,7 +22,7 @@ CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& 
                             const std::vector<int>& faults);
 
 /// Whether a prediction is better than another: recordings that were left out are more probable
-/// under it, and more than 3 % of the misfit beyond the noise is gone.
+/// under it, and more than 10 % of the misfit beyond the noise is gone.
 struct CrossValidationGain {
   double relative = 0.0;  ///< share of the misfit beyond the noise that is gone
   double ln_gain = 0.0;   ///< of what was predicted, all recordings

@@ -14,7 +14,7 @@ struct GaussianPrior {
   Eigen::VectorXd mean;
   Eigen::VectorXd sigma;
 
-  explicit GaussianPrior(Eigen::Index parameters)
+  explicit GaussianPrior(Eigen::Index parameters = 0)
       : mean(Eigen::VectorXd::Zero(parameters)), sigma(Eigen::VectorXd::Zero(parameters)) {}
 };
 
@@ -24,6 +24,8 @@ struct Posterior {
   double misfit = 0.0;       ///< chi-squared of data and prior at the mean
   Eigen::VectorXd mean;      ///< [parameters] posterior mean
   Eigen::MatrixXd covariance;
+  Eigen::VectorXd scale;  ///< [groups] inferred deviation of each DiscrepancyGroup
+  GaussianPrior prior;    ///< with which it was inferred
 };
 
 /// Evidence and posterior, exact for linear data (docs/theory/model_selection.md). With D =

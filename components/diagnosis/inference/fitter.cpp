@@ -56,8 +56,16 @@ void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* ot
           others->samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k));
     }
   }
-  fit->model = Linearise(observed_, simulation, fit->z, marker_rest_m_, noise_);
+  fit->model = LinearModelOf(*fit);
   fit->posterior = LinearPosterior(*fit, fit->faults);
+}
+
+/// Where the discrepancy is, what is simulated has nothing of it.
+LinearModel Fitter::LinearModelOf(const Fit& fit) const {
+  LinearModel model =
+      Linearise(observed_, fit.simulation, hypotheses_.Simulated(fit.z), marker_rest_m_, noise_);
+  for (Information& one : model.of_recording) one.about = fit.z;
+  return model;
 }
 
 Posterior Fitter::LinearPosterior(const Fit& about, const std::vector<int>& faults) const {
@@ -121,7 +129,8 @@ Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
   for (std::size_t s = 0; s < moved.simulation.samples.size(); ++s) {
     moved.simulation.samples[s].jacobian_m = fit.simulation.samples[s].jacobian_m;
   }
-  moved.model = Linearise(observed_, moved.simulation, z, marker_rest_m_, noise_);
+  moved.model = LinearModelOf(moved);
+  moved.posterior.scale = fit.posterior.scale;
   if (moved.model.y.size() < fit.model.y.size()) moved.status = FewerData();
   return moved;
 }
@@ -150,13 +159,14 @@ Fit Fitter::Continued(Fit fit) const {
   for (int step = 0;
        step < tuning_.most_continuations && failures < tuning_.most_failed_continuations; ++step) {
     if (may_end && IsOutOfTime()) return fit;
-    const double promised = MisfitAt(fit, to);
-    if (MisfitAt(fit, fit.z) - promised < tuning_.continued_chi_squared) return fit;
+    const Eigen::VectorXd& scale = fit.posterior.scale;
+    const double promised = MisfitAt(fit, to, scale);
+    if (MisfitAt(fit, fit.z, scale) - promised < tuning_.continued_chi_squared) return fit;
     Fit next = MovedTo(to, fit);
     if (!next.status.ok()) return fit;
-    const double found = MisfitAt(next, to);
+    const double found = MisfitAt(next, to, scale);
     if (std::abs(found - promised) < tuning_.continued_chi_squared) return fit;
-    if (found > MisfitAt(fit, fit.z)) {
+    if (found > MisfitAt(fit, fit.z, scale)) {
       to = 0.5 * (fit.z + to);
       ++failures;
       continue;
@@ -169,6 +179,11 @@ Fit Fitter::Continued(Fit fit) const {
   return fit;
 }
 
+Eigen::VectorXd Fitter::ScaleFor(const Fit& about, const std::vector<int>& faults) const {
+  if (about.faults == faults && about.posterior.scale.size() > 0) return about.posterior.scale;
+  return hypotheses_.InferScale(about.model.All(), faults);
+}
+
 /// Where to simulate next: what is most probable of robots with little of what has one sign only,
 /// as far as it is no fault, with none of it. Damped, it is not far from there.
 Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faults,
@@ -179,7 +194,8 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
     data.H.diagonal() += hold;
     data.b += hold.cwiseProduct(about.z);
   }
-  const Posterior all = hypotheses_.InferWithin(data, faults);
+  const Eigen::VectorXd scale = ScaleFor(about, faults);
+  const Posterior all = hypotheses_.InferWithin(data, faults, scale);
   std::vector<Eigen::Index> at_zero;
   for (int k = 0; k < hypotheses_.size(); ++k) {
     if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
@@ -191,7 +207,7 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
       if (one_sided && little) at_zero.push_back(column);
     }
   }
-  Eigen::VectorXd z = hypotheses_.InferWithin(data, faults, at_zero).mean;
+  Eigen::VectorXd z = hypotheses_.InferWithin(data, faults, scale, at_zero).mean;
   for (const auto column : hypotheses_.Idle(faults)) z[column] = 0.0;
   return z;
 }
@@ -212,7 +228,9 @@ Eigen::VectorXd Fitter::FaultStart(const std::vector<int>& faults, const Fit& st
 bool Fitter::IsNear(const Fit& fit) const {
   const GaussianPrior prior = hypotheses_.PriorWith(fit.faults);
   const Eigen::VectorXd step = PointFrom(fit, fit.faults) - fit.z;
+  const Eigen::VectorXd simulated = hypotheses_.Simulated(step);
   for (Eigen::Index p = 0; p < step.size(); ++p) {
+    if (simulated[p] == 0.0) continue;
     const double known = std::sqrt(fit.posterior.covariance(p, p));
     const bool fault = prior.sigma[p] != null_prior_.sigma[p];
     const double reach =
@@ -227,9 +245,10 @@ bool Fitter::IsKnownBySimulation(int k, const Fit& fit) const {
                              fit.z.segment(hypotheses_.first(k), hypotheses_.count(k)));
 }
 
-double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const {
+double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z,
+                        const Eigen::VectorXd& scale) const {
   const Information data = fit.model.All();
-  const GaussianPrior prior = hypotheses_.PriorWith(fit.faults);
+  const GaussianPrior prior = hypotheses_.PriorWith(fit.faults, scale);
   double misfit = data.c + z.dot(data.H * z - 2.0 * data.b);
   for (Eigen::Index p = 0; p < z.size(); ++p) {
     if (prior.sigma[p] == 0.0) continue;
@@ -260,6 +279,8 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   Fit fit;
   fit.z = FaultStart(faults, start);
   fit.posterior = LinearPosterior(start, faults);
+  // One prior for all steps, else their misfits do not compare.
+  const Eigen::VectorXd scale = fit.posterior.scale;
   const Simulation* from = &start.simulation;
   Eigen::VectorXd to = PointFrom(start, faults);
   double misfit = std::numeric_limits<double>::infinity();
@@ -275,7 +296,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     next.status = next.simulation.status;
     if (next.status.ok()) Differentiate(wanted, from, &next);
     if (next.model.y.size() < start.model.y.size() && next.status.ok()) next.status = FewerData();
-    const double now = next.status.ok() ? MisfitAt(next, next.z) : misfit;
+    const double now = next.status.ok() ? MisfitAt(next, next.z, scale) : misfit;
     const bool placed = fit.status.ok();
     if (next.status.ok() && now > misfit && now < (1.0 + tuning_.settled_misfit) * misfit) break;
     if (!next.status.ok() || now > misfit) {
@@ -292,7 +313,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     fit = std::move(next);
     from = &fit.simulation;
     to = PointFrom(fit, faults, damping);
-    const bool there = misfit < (1.0 + tuning_.still_to_go) * MisfitAt(fit, to);
+    const bool there = misfit < (1.0 + tuning_.still_to_go) * MisfitAt(fit, to, scale);
     const bool settled =
         there && std::abs(fit.posterior.ln_evidence - before) < tuning_.settled_ln_evidence;
     const bool hopeless = round + 1 >= tuning_.rounds_to_hope &&

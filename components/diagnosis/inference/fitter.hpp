@@ -105,10 +105,14 @@ class Fitter {
   /// place.
   Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults,
                             double damping = 0.0) const;
+  LinearModel LinearModelOf(const Fit& fit) const;
   bool HasKinks(const std::vector<int>& faults) const;
   Eigen::VectorXd FaultStart(const std::vector<int>& faults, const Fit& start) const;
-  /// Chi-squared of data and prior at `z`, as the linear model of `fit` has it.
-  double MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const;
+  /// Chi-squared of data and prior at `z`, as the linear model of `fit` has it, with the
+  /// discrepancies' deviations `scale`.
+  double MisfitAt(const Fit& fit, const Eigen::VectorXd& z, const Eigen::VectorXd& scale) const;
+  /// Deviations of the discrepancies under the hypothesis `faults`.
+  Eigen::VectorXd ScaleFor(const Fit& about, const std::vector<int>& faults) const;
   /// Whether a fit's linear model was made where its posterior is.
   bool IsNear(const Fit& fit) const;
   /// With the same faults at `z`, what faults do there taken from `fit`.

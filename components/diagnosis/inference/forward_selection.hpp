@@ -22,6 +22,7 @@ struct SelectionTuning {
   double same_effect = 0.95;        ///< canonical correlation of faults with the same effect
   double least_tolerances = 3.0;    ///< size of a fault that has a tolerance
   double nonzero_sigmas = 2.0;      ///< deviations by which a size differs from zero
+  double exactly_screened = 0.0;    ///< ln BF with the discrepancies of before, to infer them again
   double refined_within = 10.0;     ///< ln BF below the best that is still simulated
   double further_promise = 5.0;     ///< ln BF that a further fault promises before that
   std::size_t most_refined = 4;     ///< candidates simulated in a round
@@ -60,8 +61,7 @@ void SortByEvidence(std::vector<Candidate>* candidates);
 
 /// The largest canonical correlation between what two faults do, what manufacturing tolerances can
 /// make up for taken out; in [0, 1].
-double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
-                            int b);
+double CanonicalCorrelation(const HypothesisSet& hypotheses, const Fit& about, int a, int b);
 
 /// Why a fitted fault is not accepted (docs/theory/model_selection.md, Forward selection): it is
 /// within tolerances, does not differ from zero, or is not plausible. Empty: it is accepted.

@@ -183,7 +183,7 @@ GoodnessOfFit TestGoodnessOfFit(const ObservedExperiment& observed,
                                 std::uint64_t seed) {
   const LinearModel& model = fit.model;
   const ResidualStatistics residual_statistics(observed, marker_rest_m, model);
-  const GaussianPrior prior = hypotheses.PriorWith(fit.faults);
+  const GaussianPrior prior = hypotheses.PriorWith(fit.faults, fit.posterior.scale);
   // The residual of the posterior mean is linear in what is measured.
   const auto residual_of = [&](const Eigen::VectorXd& off) -> Eigen::VectorXd {
     return off - model.J * (fit.posterior.covariance * (model.J.transpose() * off));

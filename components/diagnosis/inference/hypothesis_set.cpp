@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/diagnosis/inference/group_scale.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
@@ -28,6 +29,9 @@ HypothesisSet::HypothesisSet(std::vector<FaultModelPtr> models,
     : models_(std::move(models)), first_{0}, tolerances_(std::move(tolerances)) {
   for (const FaultModelPtr& fault : models_) {
     first_.push_back(first_.back() + std::ssize(fault->parameters()));
+    for (const FaultParameter& parameter : fault->parameters()) {
+      group_of_.push_back(static_cast<int>(parameter.group));
+    }
   }
 }
 
@@ -61,13 +65,39 @@ GaussianPrior HypothesisSet::PriorWith(const std::vector<int>& faults) const {
   return prior;
 }
 
-Posterior HypothesisSet::InferWithin(const Information& data, const std::vector<int>& faults,
-                                     const std::vector<Eigen::Index>& at_zero) const {
+GaussianPrior HypothesisSet::PriorWith(const std::vector<int>& faults,
+                                       const Eigen::VectorXd& scale) const {
   GaussianPrior prior = PriorWith(faults);
+  for (Eigen::Index p = 0; p < prior.sigma.size(); ++p) {
+    if (group_of_[At(p)] >= 0) prior.sigma[p] *= scale[group_of_[At(p)]];
+  }
+  return prior;
+}
+
+Eigen::VectorXd HypothesisSet::InferScale(const Information& data, const std::vector<int>& faults,
+                                          const Eigen::VectorXd& start) const {
+  GaussianPrior prior = PriorWith(faults);
+  for (const Eigen::Index p : Idle(faults)) prior.mean[p] = data.about[p];
+  return InferGroupScale(data, prior, group_of_, kDiscrepancyGroups, start);
+}
+
+Eigen::VectorXd HypothesisSet::Simulated(Eigen::VectorXd z) const {
+  for (int k = 0; k < size(); ++k) {
+    if (model(k).AddsToPrediction()) z.segment(first(k), count(k)).setZero();
+  }
+  return z;
+}
+
+Posterior HypothesisSet::InferWithin(const Information& data, const std::vector<int>& faults,
+                                     const Eigen::VectorXd& scale,
+                                     const std::vector<Eigen::Index>& at_zero) const {
+  const Eigen::VectorXd known = scale.size() > 0 ? scale : InferScale(data, faults);
+  GaussianPrior prior = PriorWith(faults, known);
   prior.sigma(at_zero).setZero();
   for (const Eigen::Index p : Idle(faults)) prior.mean[p] = data.about[p];
   while (true) {
     Posterior posterior = Infer(data, prior);
+    posterior.scale = known;
     bool inside = true;
     for (const int k : faults) {
       for (Eigen::Index p = 0; p < count(k); ++p) {
@@ -81,6 +111,7 @@ Posterior HypothesisSet::InferWithin(const Information& data, const std::vector<
         inside = false;
       }
     }
+    posterior.prior = prior;
     if (inside) return posterior;
   }
 }

@@ -35,13 +35,23 @@ class HypothesisSet {
   }
   /// Whether its prior as a fault is wider than its tolerance; false of nuisance models.
   bool CanBeFault(int k) const;
-  /// Prior of the hypothesis `faults`: these with their fault range, all others with tolerances.
+  /// Prior of the hypothesis `faults`: these with their fault range, all others with tolerances,
+  /// those of groups times their `scale` [groups] (Posterior::scale).
+  GaussianPrior PriorWith(const std::vector<int>& faults, const Eigen::VectorXd& scale) const;
+  /// The same in units of the groups' scales.
   GaussianPrior PriorWith(const std::vector<int>& faults) const;
+  /// Deviations of the groups: the most probable under the hypothesis `faults`.
+  Eigen::VectorXd InferScale(const Information& data, const std::vector<int>& faults,
+                             const Eigen::VectorXd& start = {}) const;
   /// Posterior of the hypothesis `faults`; a parameter that would leave its range is fixed at the
   /// bound. The parameters `at_zero` are fixed at zero, idle ones where the data are linear: place
   /// times force is bilinear, so that a shift without its force would keep a spurious effect.
+  /// `scale` [groups] of the discrepancies; empty: the most probable under these faults.
   Posterior InferWithin(const Information& data, const std::vector<int>& faults,
+                        const Eigen::VectorXd& scale = {},
                         const std::vector<Eigen::Index>& at_zero = {}) const;
+  /// `z` [parameters] with nothing of what is added to what is simulated.
+  Eigen::VectorXd Simulated(Eigen::VectorXd z) const;
 
   /// Qualifying parameters (a place, a time constant) of faults that are not in `faults`.
   std::vector<Eigen::Index> Idle(const std::vector<int>& faults) const;
@@ -54,6 +64,7 @@ class HypothesisSet {
   std::vector<FaultModelPtr> models_;
   std::vector<Eigen::Index> first_;  ///< [faults + 1]
   std::map<std::string, double> tolerances_;
+  std::vector<int> group_of_;  ///< [parameters] of a deviation that is inferred; -1: none
 };
 
 }  // namespace palpate::diagnosis

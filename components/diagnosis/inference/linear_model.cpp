@@ -162,7 +162,8 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
     Information& information = model.of_recording.emplace_back(z.size());
     const auto J = model.J.middleRows(first, row - first);
     const auto y = model.y.segment(first, row - first);
-    information.H.noalias() = J.transpose() * J;
+    information.H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+    information.H.triangularView<Eigen::StrictlyUpper>() = information.H.transpose();
     information.b.noalias() = J.transpose() * y;
     information.c = y.squaredNorm();
     information.rows = static_cast<int>(row - first);

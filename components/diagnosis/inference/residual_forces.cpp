@@ -96,7 +96,7 @@ Eigen::Matrix3Xd ForcesFor(const HypothesisSet& hypotheses, const Known& known,
 
 ResidualForces FindResidualForces(const ObservedExperiment& observed,
                                   const HypothesisSet& hypotheses, const Selection& selection) {
-  const GaussianPrior null_model = hypotheses.PriorWith({});
+  const GaussianPrior null_model = hypotheses.PriorWith({}, selection.null_model.posterior.scale);
   const Eigen::MatrixXd tolerances = null_model.sigma.array().square().matrix().asDiagonal();
   const Known before{selection.null_model.model, null_model.mean, tolerances};
   const Posterior& posterior = selection.best.posterior;

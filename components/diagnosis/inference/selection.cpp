@@ -38,7 +38,7 @@ void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
   for (Eigen::Index a = 0; a < count; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
       const double indistinguishable =
-          CanonicalCorrelation(hypotheses, selection->null_model.model, selection->compared[At(a)],
+          CanonicalCorrelation(hypotheses, selection->null_model, selection->compared[At(a)],
                                selection->compared[At(b)]);
       selection->canonical_correlation(a, b) = indistinguishable;
       selection->canonical_correlation(b, a) = indistinguishable;

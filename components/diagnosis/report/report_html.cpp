@@ -79,6 +79,7 @@ std::string FormatReport(const DiagnosisResult& result) {
   html += Section("Next experiments", ExperimentTable(result));
   html += Section("Faults not named, and why", RivalTable(result));
   html += Section("Recordings", RecordingTable(result));
+  html += Section("What these data can show", FindableTable(result));
   html += Section("Not identifiable from data of this kind", IdentityList(result));
   html += Section("How to repeat", HowToRepeat(result));
   return html + "</main>\n</body>\n</html>\n";

@@ -135,10 +135,29 @@ std::string RecordingTable(const DiagnosisResult& result) {
                           MillimetreCell(one.heldout_after_m), MillimetreCell(one.noise_m)});
   }
   const ErrorSummary& error = result.model_error;
-  table.rows.push_back({"all", "", "", MillimetreCell(error.before_m), kDash,
-                        MillimetreCell(error.after_m), MillimetreCell(error.heldout_before_m),
+  table.rows.push_back({"all", "", "", MillimetreCell(error.before_m),
+                        MillimetreCell(error.null_model_m), MillimetreCell(error.after_m),
+                        MillimetreCell(error.heldout_before_m),
                         MillimetreCell(error.heldout_after_m), MillimetreCell(error.noise_m)});
   return FormatTable(table);
+}
+
+std::string FindableTable(const DiagnosisResult& result) {
+  if (result.findable.empty()) return "";
+  HtmlTable table;
+  table.head = {"fault", "parameter", "smallest size that would be named"};
+  table.numeric = {false, false, true};
+  for (const FindableSize& one : result.findable) {
+    const ParameterText text = DescribeParameter({one.parameter, one.value, one.value, one.value});
+    const bool known = std::isfinite(one.value);
+    table.rows.push_back({one.words, text.name,
+                          known ? text.value + (text.unit.empty() ? "" : " " + text.unit)
+                                : "none that is plausible"});
+  }
+  return Element("p", HealthyText(result)) + FormatTable(table) +
+         Element("p",
+                 "Smaller ones cannot be seen in these data: ln BF 10 and three manufacturing "
+                 "tolerances, by the linear model of the null model.");
 }
 
 std::string IdentityList(const DiagnosisResult& result) {

@@ -16,6 +16,9 @@ std::string CauseTable(const DiagnosisResult& result);
 std::string RivalTable(const DiagnosisResult& result);
 std::string ExperimentTable(const DiagnosisResult& result);
 std::string RecordingTable(const DiagnosisResult& result);
+/// The smallest size of each fault that would be named, and how often a healthy robot would be
+/// accused.
+std::string FindableTable(const DiagnosisResult& result);
 std::string IdentityList(const DiagnosisResult& result);
 std::string HowToRepeat(const DiagnosisResult& result);
 

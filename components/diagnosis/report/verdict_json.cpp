@@ -21,6 +21,14 @@ Json Where(const CauseName& name) {
 
 Json ToJson(const CauseName& name) { return {{"id", name.id}, {"where", Where(name)}}; }
 
+Json ToJson(const ChangedValue& value) {
+  return {{"what", value.words},
+          {"unit", value.unit},
+          {"before", Number(value.before)},
+          {"after", Number(value.after)},
+          {"ci95", Json::array({Number(value.ci95_low), Number(value.ci95_high)})}};
+}
+
 Json ToJson(const NamedCause& cause) {
   Json parameters = Json::object();
   for (const FittedParameter& parameter : cause.parameters) {
@@ -36,6 +44,8 @@ Json ToJson(const NamedCause& cause) {
   json["explained_share"] = Number(cause.explained_share);
   json["cross_validated"] = cause.cross_validated;
   json["seen_in"] = cause.seen_in;
+  json["in_file"] = Json::array();
+  for (const ChangedValue& value : cause.in_file) json["in_file"].push_back(ToJson(value));
   return json;
 }
 
@@ -64,9 +74,12 @@ Json ToJson(const RecordingError& recording) {
 
 Json ToJson(const ErrorSummary& error) {
   return {{"before", Number(error.before_m)},
+          {"healthy", Number(error.null_model_m)},
           {"after", Number(error.after_m)},
           {"heldout_before", Number(error.heldout_before_m)},
           {"heldout_after", Number(error.heldout_after_m)},
+          {"heldout_gain_ci95",
+           Json::array({Number(error.heldout_gain_low_m), Number(error.heldout_gain_high_m)})},
           {"noise", Number(error.noise_m)}};
 }
 
@@ -91,6 +104,19 @@ Json ToJson(const ResidualTest& left) {
           {"surprise", Number(left.surprise)},
           {"surprise_limit", Number(left.surprise_limit)},
           {"excess", Number(left.excess)}};
+}
+
+Json ToJson(const SimulatedHealthy& healthy) {
+  return {{"drawn", healthy.drawn},
+          {"accused", healthy.accused},
+          {"ln_bayes_factor_98", Number(healthy.ln_bayes_factor_98)}};
+}
+
+Json ToJson(const FindableSize& one) {
+  Json json = ToJson(one.name);
+  json["parameter"] = one.parameter;
+  json["value"] = Number(one.value);
+  return json;
 }
 
 Json ToJson(const ExperimentProposal& one) {
@@ -131,6 +157,11 @@ std::string FormatVerdict(const DiagnosisResult& result) {
                      {"no_fault_probability", Number(result.no_fault_probability)},
                      {"other_probability", Number(result.other_probability)},
                      {"what_is_left", ToJson(result.residual_test)},
+                     {"simulated_healthy", ToJson(result.simulated_healthy)},
+                     {"model_discrepancy",
+                      {{"cables", Number(result.cable_discrepancy)},
+                       {"stiffness", Number(result.stiffness_discrepancy)}}},
+                     {"smallest_findable", List(result.findable)},
                      {"residual_m_rms", ToJson(result.model_error)},
                      {"next_experiment", NextExperiment(result.experiments)},
                      {"recordings", List(result.recordings)},

@@ -41,6 +41,16 @@ struct CauseName {
   bool operator==(const CauseName&) const = default;
 };
 
+/// A value of a robot file or calibration that a cause changes.
+struct ChangedValue {
+  std::string words;  ///< "E of `middle`"
+  std::string unit;   ///< "kPa"; empty: a plain number
+  double before = 0.0;
+  double after = 0.0;
+  double ci95_low = 0.0;  ///< of `after`; both equal to it: not known
+  double ci95_high = 0.0;
+};
+
 /// A cause that was named.
 struct NamedCause {
   CauseName name;
@@ -52,6 +62,7 @@ struct NamedCause {
       0.0;  ///< of what tolerances leave beyond noise (explain/model_error.hpp)
   bool cross_validated = false;      ///< it lowers the error in recordings it was not fitted to
   std::vector<std::string> seen_in;  ///< recordings that speak for it
+  std::vector<ChangedValue> in_file = {};  ///< what it changes in files; empty: nothing there
 };
 
 /// A cause that was not named, and why.
@@ -73,18 +84,22 @@ struct RecordingError {
   double before_m = 0.0;          ///< the simulation as the robot file has it
   double null_model_m = 0.0;      ///< fitted within the manufacturing tolerances
   double after_m = 0.0;           ///< with the causes that were named
-  double heldout_before_m = 0.0;  ///< nominal robot, fitted to the other recordings
+  double heldout_before_m = 0.0;  ///< the null model, fitted to the other recordings
   double heldout_after_m = 0.0;   ///< extended model, fitted to the other recordings
   double noise_m = 0.0;           ///< what measuring alone leaves
 };
 
-/// RMS over all recordings, m.
+/// RMS over all recordings, m; each as in RecordingError.
 struct ErrorSummary {
   double before_m = 0.0;
+  double null_model_m = 0.0;
   double after_m = 0.0;
-  double heldout_before_m = 0.0;  ///< as built, which is fitted to none
+  double heldout_before_m = 0.0;
   double heldout_after_m = 0.0;
   double noise_m = 0.0;
+  /// 95 % of heldout_before_m - heldout_after_m over recordings drawn again (bootstrap).
+  double heldout_gain_low_m = std::numeric_limits<double>::quiet_NaN();
+  double heldout_gain_high_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One sample that simulation and robot were compared at.
@@ -122,6 +137,23 @@ struct ResidualTest {
   double excess = 0.0;
 };
 
+/// The smallest size of a fault that these data would name, by the linear model of the null model.
+struct FindableSize {
+  CauseName name;
+  std::string words;
+  std::string parameter;  ///< of verdict.json
+  double value = 0.0;     ///< of the parameter; NaN: no size that is plausible
+};
+
+/// Healthy robots of this kind in this experiment, simulated by the null model (parametric
+/// bootstrap).
+struct SimulatedHealthy {
+  int drawn = 0;
+  int accused = 0;  ///< that a fault would be named of
+  /// 98 % quantile of their most probable fault's ln BF.
+  double ln_bayes_factor_98 = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Everything that a report says. Lists are sorted, the most important first.
 struct DiagnosisResult {
   Verdict verdict = Verdict::kDataUnfit;
@@ -134,6 +166,12 @@ struct DiagnosisResult {
   double no_fault_probability = 0.0;
   double other_probability = 0.0;  ///< of something that the catalogue does not hold
   ResidualTest residual_test;
+  std::vector<FindableSize> findable;
+  SimulatedHealthy simulated_healthy;
+  /// Inferred size of the model discrepancy, as a share of the largest command, and of the modulus;
+  /// NaN: it has none.
+  double cable_discrepancy = std::numeric_limits<double>::quiet_NaN();
+  double stiffness_discrepancy = std::numeric_limits<double>::quiet_NaN();
   ErrorSummary model_error;
   std::vector<RecordingError> recordings;
   ResidualForces residual_forces;

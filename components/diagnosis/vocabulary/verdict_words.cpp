@@ -101,18 +101,25 @@ std::string Explained(const DiagnosisResult& result) {
   return JoinedOrNone(texts) + of;
 }
 
-/// "4.1 → 0.8 mm (noise 0.7 mm)"
+/// Three digits: what a cause gains may be a small part of what is left.
+std::string FineText(double value_m) { return NumberText(1e3 * value_m, 3); }
+
+/// "4.10 → 0.80 mm (noise 0.70 mm)"
 std::string Change(double before_m, double after_m, double noise_m) {
-  return MillimetreText(before_m) + " \u2192 " + LengthText(after_m) + " (noise " +
-         LengthText(noise_m) + ")";
+  return FineText(before_m) + " \u2192 " + FineText(after_m) + " mm (noise " + FineText(noise_m) +
+         " mm)";
 }
 
-/// What the causes change.
+/// What the causes change: against the robot without them, its tolerances fitted as theirs are.
 std::string Gain(const ErrorSummary& error) {
-  if (std::isfinite(error.heldout_before_m) && std::isfinite(error.heldout_after_m)) {
-    return Change(error.heldout_before_m, error.heldout_after_m, error.noise_m);
+  if (!std::isfinite(error.heldout_before_m) || !std::isfinite(error.heldout_after_m)) {
+    return "not known; where it was fitted " +
+           Change(error.null_model_m, error.after_m, error.noise_m);
   }
-  return "not known; where it was fitted " + Change(error.before_m, error.after_m, error.noise_m);
+  std::string text = Change(error.heldout_before_m, error.heldout_after_m, error.noise_m);
+  if (!std::isfinite(error.heldout_gain_low_m)) return text;
+  return text + ", a gain of " + FineText(error.heldout_gain_low_m) + " to " +
+         FineText(error.heldout_gain_high_m) + " mm (95 %)";
 }
 
 /// What is wrong where no cause was named.
@@ -124,9 +131,21 @@ std::string Error(const ErrorSummary& error) {
   return text + " (noise " + LengthText(error.noise_m) + ")";
 }
 
+/// "E of `middle`: 250 → 179 ± 10 kPa"
+std::string ChangeText(const ChangedValue& value) {
+  const ParameterText after =
+      DescribeParameter({value.words, value.after, value.ci95_low, value.ci95_high});
+  const std::string text = after.whole.substr(value.words.size() + std::string(" = ").size());
+  return value.words + ": " + NumberText(value.before, 3) + " \u2192 " + text +
+         (value.unit.empty() ? "" : " " + value.unit);
+}
+
 void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* details) {
   details->push_back({"Explains", Explained(result)});
-  details->push_back({"Left-out error", Gain(result.model_error)});
+  details->push_back({"Left-out error, without and with", Gain(result.model_error)});
+  std::string changes;
+  for (const std::string& one : ChangeTexts(result)) changes += (changes.empty() ? "" : "; ") + one;
+  if (!changes.empty()) details->push_back({"In the files", changes});
   details->push_back({"Seen in", JoinedOrNone(SeenIn(result))});
   std::vector<std::string> once;
   for (const NamedCause& cause : result.causes) {
@@ -147,6 +166,27 @@ std::string Enumeration(const std::vector<std::string>& items) {
     text += items[i];
   }
   return text;
+}
+
+std::vector<std::string> ChangeTexts(const DiagnosisResult& result) {
+  std::vector<std::string> texts;
+  for (const NamedCause& cause : result.causes) {
+    for (const ChangedValue& value : cause.in_file) texts.push_back(ChangeText(value));
+  }
+  return texts;
+}
+
+std::string HealthyText(const DiagnosisResult& result) {
+  const SimulatedHealthy& healthy = result.simulated_healthy;
+  if (healthy.drawn == 0) return {};
+  // The upper end of 95 % where none was accused (the rule of three).
+  constexpr double kNoneOf = 3.0;
+  const double share = healthy.accused > 0 ? static_cast<double>(healthy.accused) / healthy.drawn
+                                           : kNoneOf / healthy.drawn;
+  return "A healthy robot would be accused in " +
+         std::string(healthy.accused > 0 ? "" : "less than ") + NumberText(100.0 * share, 2) +
+         " % of cases (" + std::to_string(healthy.accused) + " of " +
+         std::to_string(healthy.drawn) + " simulated)";
 }
 
 std::string WordsFor(const CauseName& name, const DiagnosisResult& result) {
@@ -208,6 +248,8 @@ std::vector<VerdictDetail> VerdictDetails(const DiagnosisResult& result) {
   } else if (std::isfinite(result.model_error.before_m)) {
     details.push_back({"Error", Error(result.model_error)});
   }
+  if (const std::string healthy = HealthyText(result); !healthy.empty())
+    details.push_back({"False accusations", Sentence(healthy)});
   if (!result.experiments.empty() && result.verdict != Verdict::kNoFault) {
     const ExperimentProposal& next = result.experiments.front();
     details.push_back(

@@ -27,6 +27,12 @@ std::vector<VerdictDetail> VerdictDetails(const DiagnosisResult& result);
 /// Headline and details as one paragraph, for a terminal.
 std::string VerdictParagraph(const DiagnosisResult& result);
 
+/// What the named causes change in files, one value each: "E of `middle`: 250 → 179 ± 10 kPa".
+std::vector<std::string> ChangeTexts(const DiagnosisResult& result);
+
+/// How often a healthy robot of this kind would be accused; empty: not known.
+std::string HealthyText(const DiagnosisResult& result);
+
 /// A cause for people: the words of the cause or rival of that name, else id and places.
 std::string WordsFor(const CauseName& name, const DiagnosisResult& result);
 

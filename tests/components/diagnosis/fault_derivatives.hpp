@@ -67,7 +67,10 @@ class FaultDerivatives : public testing::Test {
       world.mesh_error =
           std::make_shared<MeshError>(CompareMeshes(body_, at_rest_, finer, on_finer).value());
     }
-    return MakeFaultModels(world, {});
+    std::vector<FaultModelPtr> causes = MakeFaultModels(world, {});
+    // It changes nothing that is simulated (model_discrepancy_test.cpp).
+    std::erase_if(causes, [](const FaultModelPtr& one) { return one->AddsToPrediction(); });
+    return causes;
   }
 
   /// [coordinates, samples after another] of the simulation.

@@ -23,7 +23,7 @@ Diagnosis Leaves(double null_model_m, const std::string& cause) {
                         .heldout_before_m = 1.5 * null_model_m,
                         .heldout_after_m = 1.1,
                         .noise_m = 1.0}};
-  result.model_error = {2.0 * null_model_m, 1.0, 1.5 * null_model_m, 1.1, 1.0};
+  result.model_error = {2.0 * null_model_m, null_model_m, 1.0, 1.5 * null_model_m, 1.1, 1.0};
   if (!cause.empty()) {
     NamedCause& named = result.causes.emplace_back();
     named.name = {cause, {"body"}};

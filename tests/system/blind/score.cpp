@@ -69,7 +69,7 @@ void ScoreOneCause(const CaseRecord& record, Score* score) {
   score->another.Add(NamesAbsentOne(record));
   const Residuals& rms_m = record.verdict->residuals_m;
   const double noise_m2 = rms_m.noise * rms_m.noise;
-  const double before_m2 = rms_m.heldout_before * rms_m.heldout_before - noise_m2;
+  const double before_m2 = rms_m.before * rms_m.before - noise_m2;
   const double after_m2 = rms_m.heldout_after * rms_m.heldout_after - noise_m2;
   if (before_m2 > 0.0) score->heldout_gains.push_back(1.0 - after_m2 / before_m2);
 }

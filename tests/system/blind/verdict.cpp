@@ -79,7 +79,7 @@ Verdict VerdictFrom(const Json& json) {
   verdict.alternatives = SuspectsFrom(json, "alternatives", true);
   verdict.indistinguishable_from = SuspectsFrom(json, "indistinguishable_from", false);
   const Json residuals = json.value("residual_m_rms", Json::object());
-  verdict.residuals_m = {.heldout_before = NumberOr(residuals, "heldout_before"),
+  verdict.residuals_m = {.before = NumberOr(residuals, "before"),
                          .heldout_after = NumberOr(residuals, "heldout_after"),
                          .noise = NumberOr(residuals, "noise")};
   return verdict;

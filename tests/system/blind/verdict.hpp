@@ -35,7 +35,7 @@ struct Suspect {
 
 /// RMS m; NaN where the file has none.
 struct Residuals {
-  double heldout_before = 0.0;
+  double before = 0.0;  ///< the robot file as it is
   double heldout_after = 0.0;
   double noise = 0.0;
 };

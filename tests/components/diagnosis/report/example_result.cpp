@@ -159,7 +159,14 @@ void AddRecordings(DiagnosisResult* result) {
   }
   const double before_m = Rms_m(*result, -1, &ComparedSample::before_m);
   const double after_m = Rms_m(*result, -1, &ComparedSample::after_m);
-  result->model_error = {before_m, after_m, 1.04 * before_m, 1.08 * after_m, kNoise_m};
+  result->model_error = {.before_m = before_m,
+                         .null_model_m = 0.8 * before_m,
+                         .after_m = after_m,
+                         .heldout_before_m = 1.04 * before_m,
+                         .heldout_after_m = 1.08 * after_m,
+                         .noise_m = kNoise_m,
+                         .heldout_gain_low_m = 0.8 * (before_m - after_m),
+                         .heldout_gain_high_m = 1.1 * (before_m - after_m)};
 }
 
 void AddRivals(DiagnosisResult* result) {
@@ -246,6 +253,12 @@ DiagnosisResult FrictionExample() {
        .explained_share = 0.83,
        .cross_validated = true,
        .seen_in = {"02_ramp_north", "06_hold_north", "08_repeat_north", "09_second_speed_north"}}};
+  result.causes.front().in_file = {{"friction of cable `north`", "", 0.0, 0.2134, 0.1951, 0.2322}};
+  result.findable = {
+      {{"cable_friction", {"cable:north"}}, "friction of cable north", "mu", 0.061},
+      {{"cable_routing", {"cable:north"}}, "place of a fixed eyelet", "dx_m", 0.0011},
+      {{"rest_twist", {"body"}}, "a twist of the body", "rate_rad_m", kNaN}};
+  result.simulated_healthy = {.drawn = 200, .accused = 4, .ln_bayes_factor_98 = 3.1};
   result.no_fault_probability = 1e-6;
   result.other_probability = 0.006;
   result.experiments = {{"ramp of cable north to 12 mm, twice as slowly",
@@ -334,7 +347,7 @@ DiagnosisResult DataUnfitExample() {
   result.verdict = Verdict::kDataUnfit;
   result.reason = "the markers of recording 04_ramp_south stand still while its cable moves 8 mm";
   result.identities.clear();
-  result.model_error = {kNaN, kNaN, kNaN, kNaN, kNaN};
+  result.model_error = {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
   return result;
 }
 

@@ -40,7 +40,17 @@ TEST(VerdictJson, HoldsWhatArchitectureShows) {
   EXPECT_EQ(rms["heldout_before"], result.model_error.heldout_before_m);
   EXPECT_EQ(rms["heldout_after"], result.model_error.heldout_after_m);
   EXPECT_EQ(rms["noise"], result.model_error.noise_m);
-  EXPECT_EQ(rms.size(), 5U);
+  EXPECT_EQ(rms["healthy"], result.model_error.null_model_m);
+  EXPECT_EQ(rms["heldout_gain_ci95"][0], result.model_error.heldout_gain_low_m);
+  EXPECT_EQ(rms.size(), 7U);
+  EXPECT_EQ(cause["in_file"][0]["what"], "friction of cable `north`");
+  EXPECT_EQ(cause["in_file"][0]["before"], 0.0);
+  EXPECT_EQ(cause["in_file"][0]["after"], 0.2134);
+  EXPECT_EQ(verdict["simulated_healthy"]["accused"], 4);
+  ASSERT_EQ(verdict["smallest_findable"].size(), 3U);
+  EXPECT_EQ(verdict["smallest_findable"][0]["id"], "cable_friction");
+  EXPECT_EQ(verdict["smallest_findable"][0]["value"], 0.061);
+  EXPECT_TRUE(verdict["smallest_findable"][2]["value"].is_null());
   EXPECT_EQ(verdict["next_experiment"]["title"], result.experiments[0].title);
   EXPECT_EQ(verdict["next_experiment"]["separates"][1]["id"], "backlash");
   ASSERT_EQ(verdict["next_experiment"]["others"].size(), 1U);

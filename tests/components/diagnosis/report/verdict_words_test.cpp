@@ -52,11 +52,31 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
             "Friction of cable north, mu = 0.213 \u00B1 0.019 (95 %), p = 0.97.");
   const std::string all = VerdictParagraph(FrictionExample());
   EXPECT_THAT(all, HasSubstr("Explains: 83 % of the excess residual."));
-  EXPECT_THAT(all, HasSubstr("Left-out error: 0.52 \u2192 0.33 mm (noise 0.30 mm)."));
+  EXPECT_THAT(all, HasSubstr("Left-out error, without and with: 0.52"));
+  EXPECT_THAT(all, HasSubstr(" mm (noise 0.300 mm), a gain of 0."));
+  EXPECT_THAT(all,
+              HasSubstr("In the files: friction of cable `north`: 0 \u2192 0.213 \u00B1 0.019."));
+  EXPECT_THAT(all, HasSubstr("A healthy robot would be accused in 2.0 % of cases (4 of 200"));
   EXPECT_THAT(all, HasSubstr("Seen in: 02_ramp_north, 06_hold_north"));
   EXPECT_THAT(all, HasSubstr("Ruled out: backlash of cable north, creep of the body"));
   EXPECT_THAT(all, HasSubstr("Not identifiable from: none."));
   EXPECT_THAT(all, HasSubstr("Do next: ramp of cable north to 12 mm"));
+}
+
+TEST(VerdictWords, SayTheValueInTheTermsOfTheFile) {
+  DiagnosisResult result = FrictionExample();
+  result.causes.front().in_file = {{"E of `middle`", "kPa", 250.0, 179.0, 169.0, 189.0}};
+  EXPECT_THAT(ChangeTexts(result),
+              testing::ElementsAre("E of `middle`: 250 \u2192 179 \u00B1 10 kPa"));
+}
+
+TEST(VerdictWords, BoundTheShareOfHealthyRobotsWhereNoneWasAccused) {
+  DiagnosisResult result = FrictionExample();
+  result.simulated_healthy.accused = 0;
+  EXPECT_EQ(HealthyText(result),
+            "A healthy robot would be accused in less than 1.5 % of cases (0 of 200 simulated)");
+  result.simulated_healthy.drawn = 0;
+  EXPECT_EQ(HealthyText(result), "");
 }
 
 TEST(VerdictWords, NameEachOfSeveralCauses) {

@@ -36,7 +36,7 @@ inline Verdict RightVerdict(const CaseRecord& record) {
     verdict.verdict = "cause";
     for (const auto& effect : record.truth) verdict.causes.push_back(Accused(effect));
   }
-  verdict.residuals_m = {.heldout_before = 1.3e-3, .heldout_after = 5.1e-4, .noise = 5e-4};
+  verdict.residuals_m = {.before = 1.3e-3, .heldout_after = 5.1e-4, .noise = 5e-4};
   return verdict;
 }
 

@@ -196,7 +196,7 @@ TEST(BlindScore, AFactorsErrorIsAlsoThatOfTheFault) {
 
 TEST(BlindScore, HeldOutGainIsCountedAboveTheNoise) {
   CaseRecord record = One({kGain});
-  record.verdict->residuals_m = {.heldout_before = 5e-4, .heldout_after = 4e-4, .noise = 3e-4};
+  record.verdict->residuals_m = {.before = 5e-4, .heldout_after = 4e-4, .noise = 3e-4};
   EXPECT_THAT(Judge({record}).heldout_gains, ElementsAre(testing::DoubleNear(9.0 / 16.0, 1e-12)));
 }
 

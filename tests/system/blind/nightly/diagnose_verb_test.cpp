@@ -83,7 +83,7 @@ TEST_F(DiagnoseVerbOfCoarseCells, NamesThemAndWhatIsWrongBesideThem) {
   EXPECT_EQ(verdict["causes"][1]["where"], "cable:north");
   EXPECT_NEAR(verdict["causes"][1]["parameters"]["g"]["value"].get<double>(), kGain, 0.4 * kGain);
   const Json& rms_m = verdict["residual_m_rms"];
-  EXPECT_LT(rms_m["heldout_after"].get<double>(), 0.4 * rms_m["heldout_before"].get<double>());
+  EXPECT_LT(rms_m["heldout_after"].get<double>(), 0.4 * rms_m["before"].get<double>());
   const robot::RobotDescription extended =
       robot::ReadRobotFile(folder_ / "out/robot.extended.yaml", app::LoadYaml);
   EXPECT_EQ(extended.element, fem::ElementType::kTet10);
@@ -114,7 +114,7 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
   EXPECT_LT(half, 0.1 * kFactor);
   EXPECT_NEAR(value, kFactor, 2.0 * half);  // four sigma
   const Json& rms_m = verdict["residual_m_rms"];
-  EXPECT_LT(rms_m["heldout_after"].get<double>(), 0.5 * rms_m["heldout_before"].get<double>());
+  EXPECT_LT(rms_m["heldout_after"].get<double>(), 0.5 * rms_m["before"].get<double>());
   const robot::RobotDescription nominal =
       robot::ReadRobotFile(Source() / "config/robots/four_leg.yaml", app::LoadYaml);
   const robot::RobotDescription extended =
