@@ -20,6 +20,7 @@ namespace {
 void AddSize(const HypothesisSet& hypotheses, const SmallestSize& size, DiagnosisResult* result) {
   const FaultModel& fault = hypotheses.model(size.fault);
   const FaultParameter& parameter = fault.parameters()[At(size.parameter)];
+  if (parameter.fault_at != 0.0) return;  // it is there or not, and has no size
   const double value =
       std::isfinite(size.z) ? parameter.ValueOf(size.z) : std::numeric_limits<double>::quiet_NaN();
   const auto known =

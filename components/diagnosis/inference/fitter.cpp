@@ -316,9 +316,11 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     const bool there = misfit < (1.0 + tuning_.still_to_go) * MisfitAt(fit, to, scale);
     const bool settled =
         there && std::abs(fit.posterior.ln_evidence - before) < tuning_.settled_ln_evidence;
+    // As much as this round gained would not bring the next one there.
+    const double gained = std::max(0.0, fit.posterior.ln_evidence - before);
     const bool hopeless = round + 1 >= tuning_.rounds_to_hope &&
                           faults.size() > start.faults.size() &&
-                          fit.posterior.ln_evidence < start.posterior.ln_evidence;
+                          fit.posterior.ln_evidence + gained < start.posterior.ln_evidence;
     if (little || settled || hopeless || IsNear(fit) || IsOutOfTime()) break;
   }
   return fit;

@@ -162,7 +162,8 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
     Information& information = model.of_recording.emplace_back(z.size());
     const auto J = model.J.middleRows(first, row - first);
     const auto y = model.y.segment(first, row - first);
-    information.H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+    // Eigen divides by the number of rows.
+    if (J.rows() > 0) information.H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
     information.H.triangularView<Eigen::StrictlyUpper>() = information.H.transpose();
     information.b.noalias() = J.transpose() * y;
     information.c = y.squaredNorm();

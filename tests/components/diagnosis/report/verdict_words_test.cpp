@@ -55,7 +55,7 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   EXPECT_THAT(all, HasSubstr("Left-out error, without and with: 0.52"));
   EXPECT_THAT(all, HasSubstr(" mm (noise 0.300 mm), a gain of 0."));
   EXPECT_THAT(all,
-              HasSubstr("In the files: friction of cable `north`: 0 \u2192 0.213 \u00B1 0.019."));
+              HasSubstr("In the files: friction of cable `north`: 0.00 \u2192 0.213 \u00B1 0.019."));
   EXPECT_THAT(all, HasSubstr("A healthy robot would be accused in 2.0 % of cases (4 of 200"));
   EXPECT_THAT(all, HasSubstr("Seen in: 02_ramp_north, 06_hold_north"));
   EXPECT_THAT(all, HasSubstr("Ruled out: backlash of cable north, creep of the body"));
