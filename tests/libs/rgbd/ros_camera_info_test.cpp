@@ -36,7 +36,7 @@ TEST(RosCameraInfo, IsReadAsCameraCalibrationWritesIt) {
   EXPECT_EQ(camera.depth.fy_px, 612.0);
   EXPECT_EQ(camera.depth.cx_px, 320.25);
   EXPECT_EQ(camera.depth.cy_px, 239.5);
-  EXPECT_EQ(camera.depth.distortion, (std::array{0.1, -0.2, 0.001, 0.002, 0.05}));
+  EXPECT_EQ(camera.depth.distortion, (Distortion{0.1, -0.2, 0.001, 0.002, 0.05}));
   EXPECT_EQ(camera.depth_unit_m, 0.001);
 }
 
