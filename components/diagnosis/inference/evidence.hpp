@@ -24,8 +24,8 @@ struct Posterior {
   double misfit = 0.0;       ///< chi-squared of data and prior at the mean
   Eigen::VectorXd mean;      ///< [parameters] posterior mean
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd scale;  ///< [groups] inferred deviation of each DiscrepancyGroup
-  GaussianPrior prior;    ///< with which it was inferred
+  Eigen::VectorXd scale = {};  ///< [groups] inferred deviation of each DiscrepancyGroup
+  GaussianPrior prior{0};      ///< with which it was inferred
 };
 
 /// Evidence and posterior, exact for linear data (docs/theory/model_selection.md). With D =

@@ -21,7 +21,7 @@ CapturedMarkers Read(const std::string& name, const std::string& bytes) {
   return ReadCapture(folder.Write(name, bytes));
 }
 
-std::string Refusal(const std::string& name, const std::string& bytes) {
+std::string RefusalOfExport(const std::string& name, const std::string& bytes) {
   return MessageOf([&] { Read(name, bytes); });
 }
 
@@ -66,10 +66,10 @@ TEST(CaptureExports, RefusesAMotiveFileWithoutMarkersOrUnit) {
   std::string bytes = kMotive;
   const std::string unit = "Length Units,Centimeters";
   bytes.replace(bytes.find(unit), unit.size(), "Length Units,Furlongs");
-  EXPECT_THAT(Refusal("take.csv", bytes), HasSubstr("'Furlongs' is not known"));
-  EXPECT_THAT(Refusal("take.csv", kMotive.substr(0, kMotive.find("Frame,Time"))),
+  EXPECT_THAT(RefusalOfExport("take.csv", bytes), HasSubstr("'Furlongs' is not known"));
+  EXPECT_THAT(RefusalOfExport("take.csv", kMotive.substr(0, kMotive.find("Frame,Time"))),
               HasSubstr("without a line 'Frame,Time"));
-  EXPECT_THAT(Refusal("take.csv",
+  EXPECT_THAT(RefusalOfExport("take.csv",
                       "Format Version,1.23,Length Units,Meters\n\n,Type,Rigid Body,Rigid Body,"
                       "Rigid Body\n,Name,A,A,A\n,,Position,Position,Position\n"
                       "Frame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n"),
@@ -112,7 +112,7 @@ TEST(CaptureExports, ReadsMarkersOfQualisysWithAndWithoutColumnTitles) {
     EXPECT_TRUE(At_mm(captured, 0, 1).isApprox(Eigen::Vector3d(4, 5, 6)));
     EXPECT_FALSE(captured.tracks.frames[1].positions_m[1].has_value()) << "0, 0, 0 is a gap";
   }
-  EXPECT_THAT(Refusal("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\n"), HasSubstr("5 numbers"));
+  EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\n"), HasSubstr("5 numbers"));
 }
 
 TEST(CaptureExports, TakesTheOriginsOfRigidBodiesOfQualisysForMarkers) {
@@ -141,13 +141,13 @@ TEST(CaptureExports, ReadsTrc) {
 }
 
 TEST(CaptureExports, SayWhereANumberOrATimeIsWrong) {
-  EXPECT_THAT(Refusal("qtm.tsv", kQualisysHead + "1\t2\tx\t4\t5\t6\n"),
+  EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\tx\t4\t5\t6\n"),
               AllOf(HasSubstr("qtm.tsv:9:"), HasSubstr("'x' is not a finite number")));
-  EXPECT_THAT(Refusal("a.trc",
+  EXPECT_THAT(RefusalOfExport("a.trc",
                       "PathFileType\t4\nDataRate\tUnits\n100\tm\nFrame#\tTime\ta\n\t\tX1\tY1\tZ1\n"
                       "1\t0.1\t1\t2\t3\n2\t0.1\t1\t2\t3\n"),
               HasSubstr("a.trc:7:1: time must rise"));
-  EXPECT_THAT(Refusal("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\t99999\n"),
+  EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\t99999\n"),
               HasSubstr("is this another unit?"));
 }
 
@@ -158,7 +158,7 @@ TEST(CaptureExports, ToldApartByTheirFirstBytes) {
   EXPECT_EQ(KindOfCapture(folder.Write("c.csv", "t_s,marker\n")), CaptureKind::kTable);
   EXPECT_EQ(KindOfCapture(folder.Write("d.c3d", "")), CaptureKind::kC3d);
   EXPECT_EQ(KindOfCapture(folder.Write("e.bin", "hello")), CaptureKind::kNone);
-  EXPECT_THAT(Refusal("e.bin", "hello"), HasSubstr("is no motion capture that is read"));
+  EXPECT_THAT(RefusalOfExport("e.bin", "hello"), HasSubstr("is no motion capture that is read"));
 }
 
 TEST(CaptureExports, PlainTablesMayHaveSemicolonsDecimalCommasAndNan) {
@@ -170,7 +170,7 @@ TEST(CaptureExports, PlainTablesMayHaveSemicolonsDecimalCommasAndNan) {
   const CapturedMarkers nan =
       Read("nan.csv", "t_s,marker,x_mm,y_mm,z_mm\n0,tip,1,2,3\n0.01,tip,NaN,NaN,NaN\n");
   EXPECT_FALSE(nan.tracks.frames[1].positions_m[0].has_value());
-  EXPECT_THAT(Refusal("mixed.csv", "t_s;marker;x_mm;y_mm;z_mm\n0,0;tip;1,5;2.000;3\n"),
+  EXPECT_THAT(RefusalOfExport("mixed.csv", "t_s;marker;x_mm;y_mm;z_mm\n0,0;tip;1,5;2.000;3\n"),
               HasSubstr("'2.000'"));
 }
 

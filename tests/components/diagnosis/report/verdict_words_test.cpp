@@ -54,8 +54,8 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   EXPECT_THAT(all, HasSubstr("Explains: 83 % of the excess residual."));
   EXPECT_THAT(all, HasSubstr("Left-out error, without and with: 0.52"));
   EXPECT_THAT(all, HasSubstr(" mm (noise 0.300 mm), a gain of 0."));
-  EXPECT_THAT(all,
-              HasSubstr("In the files: friction of cable `north`: 0.00 \u2192 0.213 \u00B1 0.019."));
+  EXPECT_THAT(
+      all, HasSubstr("In the files: friction of cable `north`: 0.00 \u2192 0.213 \u00B1 0.019."));
   EXPECT_THAT(all, HasSubstr("A healthy robot would be accused in 2.0 % of cases (4 of 200"));
   EXPECT_THAT(all, HasSubstr("Seen in: 02_ramp_north, 06_hold_north"));
   EXPECT_THAT(all, HasSubstr("Ruled out: backlash of cable north, creep of the body"));
