@@ -149,16 +149,16 @@ class CheckLayers(TreeTest):
                       self.rules(check_layers.check_tree(self.root)[0]))
 
     def test_folders_of_a_component_are_layers(self):
-        self.plant("components/view/scene.hpp", "")
-        self.plant("components/view/draw/line.hpp", '#include "components/view/scene.hpp"\n')
-        self.plant("components/view/view.cpp", '#include "components/view/draw/line.hpp"\n')
-        self.plant("components/view/draw/fill.cpp", '#include "components/view/draw/line.hpp"\n')
+        self.plant("components/recorder/scene.hpp", "")
+        self.plant("components/recorder/draw/line.hpp", '#include "components/recorder/scene.hpp"\n')
+        self.plant("components/recorder/view.cpp", '#include "components/recorder/draw/line.hpp"\n')
+        self.plant("components/recorder/draw/fill.cpp", '#include "components/recorder/draw/line.hpp"\n')
         self.assertEqual(self.rules(check_layers.check_tree(self.root)[0]), "")
 
     def test_folders_do_not_include_each_other_in_a_circle(self):
-        self.plant("components/view/draw/line.hpp", '#include "components/view/text/glyph.hpp"\n')
-        self.plant("components/view/text/glyph.hpp", '#include "components/view/paper.hpp"\n')
-        self.plant("components/view/paper.hpp", '#include "components/view/draw/line.hpp"\n')
+        self.plant("components/recorder/draw/line.hpp", '#include "components/recorder/text/glyph.hpp"\n')
+        self.plant("components/recorder/text/glyph.hpp", '#include "components/recorder/paper.hpp"\n')
+        self.plant("components/recorder/paper.hpp", '#include "components/recorder/draw/line.hpp"\n')
         self.assertIn("include each other in a circle",
                       self.rules(check_layers.check_tree(self.root)[0]))
 

@@ -69,11 +69,12 @@ TEST(CaptureExports, RefusesAMotiveFileWithoutMarkersOrUnit) {
   EXPECT_THAT(RefusalOfExport("take.csv", bytes), HasSubstr("'Furlongs' is not known"));
   EXPECT_THAT(RefusalOfExport("take.csv", kMotive.substr(0, kMotive.find("Frame,Time"))),
               HasSubstr("without a line 'Frame,Time"));
-  EXPECT_THAT(RefusalOfExport("take.csv",
+  EXPECT_THAT(
+      RefusalOfExport("take.csv",
                       "Format Version,1.23,Length Units,Meters\n\n,Type,Rigid Body,Rigid Body,"
                       "Rigid Body\n,Name,A,A,A\n,,Position,Position,Position\n"
                       "Frame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n"),
-              HasSubstr("without markers"));
+      HasSubstr("without markers"));
 }
 
 // Nexus writes devices and trajectories one after the other, and velocities beside positions.
@@ -112,7 +113,8 @@ TEST(CaptureExports, ReadsMarkersOfQualisysWithAndWithoutColumnTitles) {
     EXPECT_TRUE(At_mm(captured, 0, 1).isApprox(Eigen::Vector3d(4, 5, 6)));
     EXPECT_FALSE(captured.tracks.frames[1].positions_m[1].has_value()) << "0, 0, 0 is a gap";
   }
-  EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\n"), HasSubstr("5 numbers"));
+  EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\n"),
+              HasSubstr("5 numbers"));
 }
 
 TEST(CaptureExports, TakesTheOriginsOfRigidBodiesOfQualisysForMarkers) {
@@ -143,10 +145,11 @@ TEST(CaptureExports, ReadsTrc) {
 TEST(CaptureExports, SayWhereANumberOrATimeIsWrong) {
   EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\tx\t4\t5\t6\n"),
               AllOf(HasSubstr("qtm.tsv:9:"), HasSubstr("'x' is not a finite number")));
-  EXPECT_THAT(RefusalOfExport("a.trc",
+  EXPECT_THAT(
+      RefusalOfExport("a.trc",
                       "PathFileType\t4\nDataRate\tUnits\n100\tm\nFrame#\tTime\ta\n\t\tX1\tY1\tZ1\n"
                       "1\t0.1\t1\t2\t3\n2\t0.1\t1\t2\t3\n"),
-              HasSubstr("a.trc:7:1: time must rise"));
+      HasSubstr("a.trc:7:1: time must rise"));
   EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\t3\t4\t5\t99999\n"),
               HasSubstr("is this another unit?"));
 }

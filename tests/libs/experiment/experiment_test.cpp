@@ -216,11 +216,11 @@ TEST(Experiment, RefusesARotationThatIsNone) {
 
 TEST(Experiment, RefusesTheWholeForOneBadTable) {
   EXPECT_THAT(RefusalWith("recordings/b/markers.csv", "t_s,marker,x_m,y_m,z_m\n0,a,1,2,nan\n"),
-              HasSubstr("markers.csv:2:9"));
+              HasSubstr("markers.csv:2:3"));
   EXPECT_THAT(RefusalWith("recordings/b/actuation.csv", "t_s,north.displacement_mm\n0,1\n"),
               HasSubstr("actuation.csv:1:5"));
   EXPECT_THAT(RefusalWith("recordings/b/depth/frame7.png", ""), HasSubstr("nanoseconds"));
-  EXPECT_THAT(RefusalWith("recordings/b/clouds/7.obj", ""), HasSubstr("nanoseconds"));
+  EXPECT_THAT(RefusalWith("recordings/b/clouds/7.obj", ""), HasSubstr("must end in .pcd, .ply"));
   EXPECT_THAT(RefusalWith("recordings/b/marker.csv", ""), HasSubstr("did you mean 'markers.csv'"));
   EXPECT_THAT(RefusalWith("recordings/c/markers.csv", kMarkers), HasSubstr("recording.yaml"));
 }

@@ -107,7 +107,8 @@ TEST(Markers, RefuseBadTimeWithFileAndLine) {
 }
 
 TEST(Markers, RefuseNaNAndTextAndWrongUnits) {
-  EXPECT_THAT(RefusalOfRows("0,a,1,NaN,3\n"), HasSubstr("markers.csv:2:7"));
+  EXPECT_THAT(RefusalOfRows("0,a,1,NaN,3\n"),
+              AllOf(HasSubstr("markers.csv:2:3"), HasSubstr("three coordinates, or none")));
   EXPECT_THAT(RefusalOfRows("0,a,1,2,three\n"), HasSubstr("z_m 'three'"));
   EXPECT_THAT(RefusalOfRows("0,a,1,2,97.5\n"), HasSubstr("another unit"));
   EXPECT_THAT(

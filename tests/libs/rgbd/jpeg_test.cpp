@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "libs/core/error.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::rgbd {
@@ -55,8 +56,11 @@ TEST(Jpeg, LowerQualityIsSmaller) {
 }
 
 TEST(Jpeg, NoneIsMadeOfNoPixels) {
-  EXPECT_THAT(MessageOf([] { EncodeJpeg(ColorImage(), 75); }), HasSubstr("0 x 0"));
-  EXPECT_THAT(MessageOf([] { EncodeJpeg(GreyImage(5, 0), 75); }), HasSubstr("5 x 0"));
+  const auto refusal = [](const auto& image) {
+    return MessageOf<RunError>([&] { EncodeJpeg(image, 75); });
+  };
+  EXPECT_THAT(refusal(ColorImage()), HasSubstr("0 x 0"));
+  EXPECT_THAT(refusal(GreyImage(5, 0)), HasSubstr("5 x 0"));
 }
 
 TEST(Jpeg, WhatIsNoWholeJpegIsRefusedByName) {

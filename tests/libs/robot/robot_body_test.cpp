@@ -301,9 +301,19 @@ TEST_F(RobotBodyTest, RefusesTheWrongElement) {
               AllOf(StartsWith(At(":2:")), HasSubstr("4-node")));
 }
 
-TEST_F(RobotBodyTest, RefusesAnInvertedCell) {
+TEST_F(RobotBodyTest, TurnsACellThatIsWrittenTheOtherWayRound) {
   fem::TetMesh mesh = Beam_mm();
   std::swap(mesh.cells(0, 7), mesh.cells(1, 7));
+  WriteVtk(mesh, folder_ / "beam.vtk");
+  EXPECT_THAT(Build(FullRobotText()).notes, testing::Contains(HasSubstr("turned")));
+}
+
+TEST_F(RobotBodyTest, RefusesACellWithANodeBeyondItsFace) {
+  fem::TetMesh mesh = Beam_mm();
+  const int node = mesh.cells(0, 7);
+  const Eigen::Vector3d others_m =
+      mesh.nodes_m(Eigen::all, mesh.cells.col(7).tail(3)).rowwise().mean();
+  mesh.nodes_m.col(node) = 2.0 * others_m - mesh.nodes_m.col(node);
   WriteVtk(mesh, folder_ / "beam.vtk");
   EXPECT_THAT(BuildRefusal(FullRobotText()), HasSubstr("inverted"));
 }

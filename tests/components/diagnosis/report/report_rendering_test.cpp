@@ -136,7 +136,7 @@ TEST(ReportRendering, LongNamesAreClippedByUsNotByThePicture) {
 TEST(ReportRendering, PrintsOnAFewPages) {
   const test_support::TestFolder folder;
   const Browser browser(folder.path());
-  EXPECT_EQ(browser.PrintedPages(FormatReport(FrictionExample())), 6);
+  EXPECT_EQ(browser.PrintedPages(FormatReport(FrictionExample())), 7);
   EXPECT_EQ(browser.PrintedPages(FormatReport(DataUnfitExample())), 1);
 }
 

@@ -147,7 +147,7 @@ TEST(DriverInfo, OtherLensesAreRefusedWithTheRemedy) {
   rgbd::CameraModel camera;
   const auto fisheye = InfoOf("equidistant", {0.1, 0.2, 0.3, 0.4});
   EXPECT_THAT(FromDriverInfo(*fisheye, false, &camera).message(), HasSubstr("image_rect"));
-  const auto rational = InfoOf("rational_polynomial", {1, 1, 1, 1, 1, 1, 1, 1});
+  const auto rational = InfoOf("rational_polynomial", {1, 1, 1, 1, 1, 1, 1});
   EXPECT_EQ(FromDriverInfo(*rational, false, &camera).code(), StatusCode::kInvalidInput);
   const auto nan = InfoOf("plumb_bob", {std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0});
   EXPECT_EQ(FromDriverInfo(*nan, false, &camera).code(), StatusCode::kInvalidInput);
