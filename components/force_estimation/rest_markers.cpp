@@ -101,10 +101,9 @@ std::optional<ExchangedLabels> FindExchangedLabels(const RestMarkers& markers,
                                                    const RestMarkersTuning& tuning) {
   PALPATE_CHECK(markers.measured_m.cols() == markers.model_m.cols());
   const Eigen::Index count = markers.model_m.cols();
+  if (!geometry::RegisterRigid(markers.model_m, markers.model_m).status.ok()) return std::nullopt;
   const auto fit = geometry::RegisterRigid(markers.measured_m, markers.model_m);
-  if (!fit.status.ok() || fit.rms_m <= tuning.suspicious_residual * Spread_m(markers.model_m)) {
-    return std::nullopt;
-  }
+  if (fit.rms_m <= tuning.suspicious_residual * Spread_m(markers.model_m)) return std::nullopt;
   // Any order of labels is reached by exchanging pairs, each of which fits better.
   Eigen::Matrix3Xd model_m = markers.model_m;
   std::vector<Eigen::Index> place(At(count));
