@@ -149,16 +149,16 @@ class CheckLayers(TreeTest):
                       self.rules(check_layers.check_tree(self.root)[0]))
 
     def test_folders_of_a_component_are_layers(self):
-        self.plant("components/recorder/scene.hpp", "")
-        self.plant("components/recorder/draw/line.hpp", '#include "components/recorder/scene.hpp"\n')
-        self.plant("components/recorder/view.cpp", '#include "components/recorder/draw/line.hpp"\n')
-        self.plant("components/recorder/draw/fill.cpp", '#include "components/recorder/draw/line.hpp"\n')
+        self.plant("components/player/scene.hpp", "")
+        self.plant("components/player/ink/line.hpp", '#include "components/player/scene.hpp"\n')
+        self.plant("components/player/view.cpp", '#include "components/player/ink/line.hpp"\n')
+        self.plant("components/player/ink/fill.cpp", '#include "components/player/ink/line.hpp"\n')
         self.assertEqual(self.rules(check_layers.check_tree(self.root)[0]), "")
 
     def test_folders_do_not_include_each_other_in_a_circle(self):
-        self.plant("components/recorder/draw/line.hpp", '#include "components/recorder/text/glyph.hpp"\n')
-        self.plant("components/recorder/text/glyph.hpp", '#include "components/recorder/paper.hpp"\n')
-        self.plant("components/recorder/paper.hpp", '#include "components/recorder/draw/line.hpp"\n')
+        self.plant("components/player/ink/line.hpp", '#include "components/player/txt/glyph.hpp"\n')
+        self.plant("components/player/txt/glyph.hpp", '#include "components/player/paper.hpp"\n')
+        self.plant("components/player/paper.hpp", '#include "components/player/ink/line.hpp"\n')
         self.assertIn("include each other in a circle",
                       self.rules(check_layers.check_tree(self.root)[0]))
 

@@ -63,18 +63,6 @@ export async function pixelsOf(page) {
   return PNG.sync.read(shot);
 }
 
-/** The drawing after it has come to rest: what is sent has stopped before. */
-export async function settledPixels(page) {
-  let last = await pixelsOf(page);
-  for (let same = 0; same < 5;) {
-    await page.waitForTimeout(300);
-    const next = await pixelsOf(page);
-    same = difference(last, next) === 0 ? same + 1 : 0;
-    last = next;
-  }
-  return last;
-}
-
 /** Pixels of the robot's colour scale, which the rest of the page has nowhere. */
 export function robotShare({ data }) {
   let count = 0;
@@ -83,16 +71,6 @@ export function robotShare({ data }) {
     if (Math.max(r, g, b) - Math.min(r, g, b) > 40) count += 1;
   }
   return count / (data.length / 4);
-}
-
-/** Share of pixels that differ. */
-export function difference(a, b) {
-  let count = 0;
-  for (let i = 0; i < a.data.length; i += 4) {
-    const moved = [0, 1, 2].some((k) => Math.abs(a.data[i + k] - b.data[i + k]) > 24);
-    if (moved) count += 1;
-  }
-  return count / (a.data.length / 4);
 }
 
 /** Rectangles of elements that are seen. */
