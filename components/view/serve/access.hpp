@@ -21,11 +21,11 @@ struct AccessRules {
 
 /// What a request says of itself; empty where it does not say it.
 struct RequestFacts {
-  std::string_view target;  ///< "/live?token=..."
-  std::string_view host;    ///< header Host
-  std::string_view origin;
-  std::string_view cookie;
-  std::string_view authorization;
+  std::string_view target{};  ///< "/live?token=..."
+  std::string_view host{};    ///< header Host
+  std::string_view origin{};
+  std::string_view cookie{};
+  std::string_view authorization{};
 };
 
 struct Verdict {
