@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include "libs/app/log.hpp"
 #include "libs/app/notify.hpp"
@@ -15,7 +17,8 @@ namespace palpate::app {
 
 /// The main() of a process that is a node: reads the command line, starts the log, makes the node
 /// and runs it until it ends or a signal stops it. Where NOTIFY_SOCKET is set, it says when the
-/// node is made: its model is loaded, its readers and writers are there. Returns the exit code.
+/// node is made: its model is loaded, its readers and writers are there. A signal that comes before
+/// that is a clean end, too: the node is made, and does not run. Returns the exit code.
 ///
 /// `read`(argc, argv): the command, a std::optional of a NodeCommand whose settings have `dds`;
 /// nullopt: what was asked for has been printed. `make`(command): a pointer to the node, which has
@@ -28,10 +31,22 @@ int RunNode(const std::string& program, Reader read, Maker make, int argc,
     if (!command) return kExitDone;
     AddParameters(program, &*command);
     StartLog(program, command->options);
-    const auto node = make(*command);
-    const StopSignal stop([&] { node->Stop(); });
-    NotifyReady();
-    node->Run();
+    // Others may know of the node, and end it, before it is made.
+    std::mutex mutex;
+    decltype(make(*command)) node;
+    const StopSignal stop([&] {
+      const std::lock_guard lock(mutex);
+      if (node) node->Stop();
+    });
+    auto made = make(*command);
+    {
+      const std::lock_guard lock(mutex);
+      node = std::move(made);
+    }
+    if (!stop.Requested()) {
+      NotifyReady();
+      node->Run();
+    }
     LogInfo("{}", stop.Requested() ? "stopped by a signal" : "ended");
     return kExitDone;
   });
