@@ -3,7 +3,7 @@
 
 #include "components/palpate/security/security_report.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -84,9 +84,10 @@ std::string CheckJson(const KeystoreState& state) {
 std::string CopyText(const Keystore& keystore) {
   std::string text;
   for (const auto& [host, names] : NamesByHost(keystore)) {
+    // As a shell takes it.
     text +=
         fmt::format("  host {}: {}/enclaves/{}\n", host, keystore.folder().string(),
-                    names.size() == 1 ? names[0] : "{" + fmt::format("{}", Listed(names)) + "}");
+                    names.size() == 1 ? names[0] : fmt::format("{{{}}}", fmt::join(names, ",")));
   }
   return text.empty() ? text : "copy to the hosts, and nothing else:\n" + text;
 }

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The virtual system split over two or three hosts: network namespaces on one bridge.
 
-usage: hosts_test.py SOURCE_FOLDER PROGRAM_FOLDER two_hosts|three_hosts|loss_1|loss_5|cut
+usage: hosts_test.py SOURCE_FOLDER PROGRAM_FOLDER CASE   (the keys of CASES)
 
 Ends with 77, and the reason, where namespaces or losses cannot be made.
 """
@@ -13,6 +13,8 @@ import json
 import os
 import pathlib
 import re
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -123,9 +125,10 @@ class System:
 
     def start(self, host, program, *words):
         line, options = self.command(host, program, *words)
-        with open(self.folder / f"{program}.log", "wb") as log:
+        name = f"{host}-{program}"
+        with open(self.folder / f"{name}.log", "wb") as log:
             process = subprocess.Popen(line, stdout=log, stderr=log, **options)
-        self.processes.append((program, process))
+        self.processes.append((name, process))
 
     def run(self, host, program, *words):
         line, options = self.command(host, program, *words)
@@ -177,11 +180,59 @@ class System:
 
     def stop(self):
         for _, process in self.processes:
-            process.terminate()
-        for program, process in self.processes:
+            process.send_signal(signal.SIGINT)
+        for name, process in self.processes:
             process.wait(timeout=LONGEST_START_S)
-            print(f"--- {program}: exit code {process.returncode}")
-            print((self.folder / f"{program}.log").read_text(encoding="utf-8")[-1500:])
+            print(f"--- {name}: exit code {process.returncode}")
+            print((self.folder / f"{name}.log").read_text(encoding="utf-8")[-1500:])
+
+
+class LaunchedSystem(System):
+    """The same, but `palpate launch` starts the processes of each host, from one system file."""
+
+    def __init__(self, network, source, programs, folder, settings, secured=False):
+        super().__init__(network, source, programs, folder, settings)
+        self.settings, self.secured = settings, secured
+
+    def system_file(self, pose):
+        virtual = ["four_leg", "--scenario", str(self.scenario)]
+        text = {"name": "hosts", "domain": 88, "transport": self.settings, "hosts": [
+            {"name": "camera", "address": self.network.address(0), "processes": [
+                {"name": "virtual_robot", "component": "virtual_robot", "arguments": virtual},
+                {"name": "virtual_camera", "component": "virtual_camera", "arguments": virtual},
+                {"name": "capture", "component": "capture", "after": ["virtual_camera"],
+                 "arguments": ["--camera", "127.0.0.1"], "required": True},
+                {"name": "perception", "component": "perception", "required": True,
+                 "arguments": ["--camera-pose", pose]}]},
+            {"name": "model", "address": self.network.address(1), "processes": [
+                {"name": "forces", "component": "force_estimation", "required": True,
+                 "arguments": ["four_leg", "--camera-pose", pose]}]}]}
+        if self.secured:
+            text["security"] = "keystore"
+        return json.dumps(text)  # which is YAML, too
+
+    def start_all(self):
+        text = self.system_file(self.camera_pose())
+        for name in self.network.names:
+            (self.folder / name).mkdir()
+            (self.folder / name / "system.yaml").write_text(text, encoding="utf-8")
+        if self.secured:
+            self.share_identities()
+        for name in self.network.names:
+            self.start(name, "palpate", "launch", f"{name}/system.yaml", "--host", name)
+
+    def share_identities(self):
+        """Each host gets its own identities, as docs/security.md says, and the model's `watch`."""
+        system = self.folder / "model" / "system.yaml"
+        told = self.run("model", "palpate", "security", "init", "keystore", "--system", system)
+        for name in self.network.names:
+            listed = re.search(rf"host {name}: keystore/enclaves/(.*)$", told, re.MULTILINE)[1]
+            identities = listed.strip("{}").split(",") + (["observer"] if name == "model" else [])
+            for identity in identities:
+                enclave = f"keystore/enclaves/{identity}"
+                shutil.copytree(self.folder / enclave, self.folder / name / enclave)
+            self.run(name, "palpate", "security", "check", f"{name}/keystore")
+        self.environment["PALPATE_SECURITY_DIR"] = str(self.folder / "model/keystore")
 
 
 def forces_flow(state):
@@ -243,7 +294,30 @@ def check_recorder(system):
     assert not re.search(r"image_raw \| .*Count: [1-9]", contents), contents
 
 
+def check_launched(system):
+    """As check_steady(); then every process on both hosts ends cleanly, though a reader was killed."""
+    check_steady(system)
+    for _, process in system.processes:
+        process.send_signal(signal.SIGINT)
+    for name, process in system.processes:
+        assert process.wait(timeout=LONGEST_START_S) == 0, name
+        table = (system.folder / f"{name}.log").read_text(encoding="utf-8")
+        assert re.search(r"stopped +0 ", table) and not re.search(r"stopped +signal", table), name
+
+
+def check_secured(system):
+    """As check_launched(); who has no identity sees no topic."""
+    system.wait_for(forces_flow, "forces")
+    line, options = system.command("model", "palpate", "topic", "list", "--domain", "88")
+    del options["env"]["PALPATE_SECURITY_DIR"]
+    plain = subprocess.run(line, check=False, capture_output=True, text=True, **options)
+    assert "/forces" not in plain.stdout, plain.stdout
+    check_launched(system)
+
+
 CASES = {"two_hosts": (["camera", "model"], "lan", 0, check_steady),
+         "launch": (["camera", "model"], "lan", 0, check_launched),
+         "launch_secured": (["camera", "model"], "lan", 0, check_secured),
          "three_hosts": (["camera", "model", "recorder"], "lan", 0, check_recorder),
          "loss_1": (["camera", "model"], "lossy_link", 1, check_steady),
          "loss_5": (["camera", "model"], "lossy_link", 5, check_steady),
@@ -261,7 +335,9 @@ def main():
         print(f"skipped: {reason}")
         return SKIPPED
     with network.undo, tempfile.TemporaryDirectory() as folder:
-        system = System(network, source, programs, pathlib.Path(folder), settings)
+        place = (network, source, programs, pathlib.Path(folder), settings)
+        system = (System(*place) if check not in (check_launched, check_secured) else
+                  LaunchedSystem(*place, secured=check is check_secured))
         try:
             system.start_all()
             check(system)
