@@ -6,6 +6,12 @@ find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+set(PALPATE_CYCLONEDDS "" CACHE PATH
+    "Where another Cyclone DDS 0.10 is installed, its idlc too (docs/security.md); empty: Debian's")
+if(PALPATE_CYCLONEDDS)
+  list(PREPEND CMAKE_PREFIX_PATH ${PALPATE_CYCLONEDDS})
+  list(APPEND CMAKE_INSTALL_RPATH ${PALPATE_CYCLONEDDS}/lib)
+endif()
 find_package(CycloneDDS 0.10 REQUIRED)
 # Certificates and signatures of a secured domain.
 find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)

@@ -3,6 +3,9 @@
 
 #include "libs/dds/raw_type.hpp"
 
+// First: the layout of the structs below follows how the library was built.
+#include <dds/features.h>
+
 #include <dds/ddsi/ddsi_serdata.h>
 #include <dds/ddsi/ddsi_sertype.h>
 #include <dds/ddsi/q_radmin.h>
@@ -13,11 +16,6 @@
 #include <memory>
 
 #include "libs/dds/raw_message.hpp"
-
-// The layout of these structs is that of Debian 12's library, which has shared memory.
-#ifndef DDS_HAS_SHM
-#error "compile with DDS_HAS_SHM, as Cyclone DDS itself was"
-#endif
 
 namespace palpate::dds {
 

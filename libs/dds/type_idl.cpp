@@ -3,6 +3,8 @@
 
 #include "libs/dds/type_idl.hpp"
 
+#include <dds/features.h>
+
 #include <dds/ddsi/ddsi_xt_typeinfo.h>
 
 #include <map>
