@@ -48,7 +48,8 @@ struct ColorConfig {
     v("region_color_threshold", region_color_threshold, {.min = 0.0, .max = 442.0},
       "Region growing: regions merge below this difference of mean colours, of 255 per channel");
     v("min_region_points", min_region_points, {.min = 1.0, .max = 10000.0},
-      "Region growing: smaller regions merge with a neighbour or are dropped");
+      "Region growing: smaller regions merge with a neighbour within both thresholds, or are "
+      "dropped");
     v("background_extent_m", background_extent_m, {.min = 0.0, .min_open = true},
       "Smallest length of a plane that counts as table or wall");
     v("background_thickness_m", background_thickness_m, {.min = 0.0, .min_open = true},

@@ -92,10 +92,7 @@ robot::RobotDescription WithTruth(robot::RobotDescription robot, const scenario:
 /// The corners of the cells as a mesh of its own; nodes that none of them names are left out.
 fem::TetMesh Corners(const fem::TetMesh& mesh) {
   std::vector<int> new_number(static_cast<size_t>(mesh.NodeCount()), -1);
-  fem::TetMesh corners{.nodes_m = mesh.nodes_m,
-                       .cells = mesh.cells.topRows<4>(),
-                       .group_of_cell = {},
-                       .group_names = {}};
+  fem::TetMesh corners{.nodes_m = mesh.nodes_m, .cells = mesh.cells.topRows<4>(), .groups = {}};
   Eigen::Index count = 0;
   for (int& node : corners.cells.reshaped()) {
     int& number = new_number[At(node)];

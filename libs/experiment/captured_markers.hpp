@@ -47,8 +47,13 @@ CapturedMarkers ReadC3d(const std::filesystem::path& file, const C3dOptions& opt
 /// ReadMarkers does. The rate is that of the median time step, 0 for a single frame.
 CapturedMarkers ReadCapturedCsv(const std::filesystem::path& file);
 
+/// Takes samples at exactly 0, 0, 0 out where the marker is more than 10 mm away in the nearest
+/// frame that sees it elsewhere, with a note: programs write so what was not seen.
+void TakeOutJumpsToOrigin(CapturedMarkers* captured);
+
 /// Reads any motion capture: C3D, the text files of Motive, Nexus, Qualisys and Cortex (see
 /// capture/exports.hpp), or such a plain table. The first bytes decide (capture/capture_kind.hpp).
+/// Jumps to the origin are taken out.
 CapturedMarkers ReadCapture(const std::filesystem::path& file, const C3dOptions& options = {});
 
 }  // namespace palpate::experiment

@@ -5,14 +5,12 @@
 
 #include <algorithm>
 
-#include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/table_text.hpp"
 
 namespace palpate::experiment {
 
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view WithoutBlanks(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -42,7 +40,7 @@ class FieldSplitter {
 
   bool Next(std::string_view& field) {
     if (done_) return false;
-    const std::size_t end = line_.find(separator_);
+    const std::size_t end = EndOfField();
     field = line_.substr(0, end);
     done_ = end == std::string_view::npos;
     if (!done_) line_.remove_prefix(end + 1);
@@ -50,6 +48,16 @@ class FieldSplitter {
   }
 
  private:
+  /// A separator inside quotes is none.
+  std::size_t EndOfField() const {
+    bool in_quotes = false;
+    for (std::size_t i = 0; i < line_.size(); ++i) {
+      if (line_[i] == '"') in_quotes = !in_quotes;
+      if (line_[i] == separator_ && !in_quotes) return i;
+    }
+    return std::string_view::npos;
+  }
+
   std::string_view line_;
   char separator_;
   bool done_ = false;
@@ -71,12 +79,11 @@ bool ParseWithComma(std::string_view text, double* value) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file)
-    : file_(file.string()), bytes_(std::make_unique<const std::string>(ReadFile(file))) {}
+    : file_(file.string()), bytes_(std::make_unique<const std::string>(ReadTableText(file))) {}
 
 CsvTable CsvTable::Read(const std::filesystem::path& file) {
   CsvTable table(file);
   std::string_view rest = *table.bytes_;
-  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
   while (!rest.empty() && (rest.back() == '\n' || rest.back() == '\r')) rest.remove_suffix(1);
   if (rest.empty()) {
     throw InputError(SourceLocation{table.file_, 1, 1}, "the file is empty; a header is expected");
@@ -90,6 +97,11 @@ CsvTable CsvTable::Read(const std::filesystem::path& file) {
 }
 
 void CsvTable::ParseHeader(std::string_view line) {
+  if (line.starts_with('#') || line.starts_with("sep=")) {
+    throw InputError(SourceLocation{file_, 1, 1},
+                     "'" + Excerpt(line) +
+                         "' is no header: remove the lines before the one that names the columns");
+  }
   separator_ = SeparatorOf(line);
   FieldSplitter fields(line, separator_);
   for (std::string_view field; fields.Next(field);) {
@@ -113,7 +125,7 @@ void CsvTable::ParseRow(std::string_view line, int line_number) {
     if (text.find('"') != std::string_view::npos) {
       const int column = static_cast<int>(field.data() - line.data()) + 1;
       throw InputError(SourceLocation{file_, line_number, column},
-                       "a quote inside a field, or a comma inside quotes, is not understood");
+                       "a quote inside a field is not understood");
     }
     cells_.push_back(text);
   }
@@ -137,16 +149,15 @@ std::optional<double> CsvTable::OptionalNumber(std::size_t row, std::size_t colu
 
 std::optional<double> CsvTable::OptionalSample(std::size_t row, std::size_t column) const {
   const std::string_view text = Text(row, column);
-  if (text == "NaN" || text == "nan" || text == "NAN") return std::nullopt;
+  if (StandsForMissing(text)) return std::nullopt;
   return OptionalNumber(row, column);
 }
 
 void CsvTable::FindDecimalComma() {
   double value = 0.0;
-  decimal_comma_ =
-      separator_ != ',' && std::any_of(cells_.begin(), cells_.end(), [&](std::string_view text) {
-        return text.find(',') != std::string_view::npos && ParseWithComma(text, &value);
-      });
+  decimal_comma_ = std::any_of(cells_.begin(), cells_.end(), [&](std::string_view text) {
+    return text.find(',') != std::string_view::npos && ParseWithComma(text, &value);
+  });
 }
 
 // Where commas are decimal a point could group thousands, and is refused.

@@ -16,10 +16,10 @@
 namespace palpate::experiment {
 
 /// A comma-separated table with one header line, kept as text until a field is asked for.
-/// Blanks around a field and quotes about a whole field are dropped; CR LF and a byte order mark
-/// are understood; empty lines are allowed at the end only. A header without commas may have
-/// semicolons or tabs between its fields, as spreadsheets of some countries write them; then
-/// numbers may have a decimal comma, all of them or none.
+/// Blanks around a field and quotes about a whole field are dropped; line ends and encodings are
+/// those of ReadTableText; empty lines are allowed at the end only. A header without commas may
+/// have semicolons or tabs between its fields, as spreadsheets of some countries write them. Then,
+/// and in quotes, numbers may have a decimal comma, all of them or none.
 class CsvTable {
  public:
   /// Throws InputError with file:line:column where the file cannot be read, is empty, has a row
@@ -38,7 +38,7 @@ class CsvTable {
   std::optional<double> OptionalNumber(std::size_t row, std::size_t column) const;
   /// A finite number; an empty field throws InputError as well.
   double Number(std::size_t row, std::size_t column) const;
-  /// As OptionalNumber, and nullopt also for NaN, which stands for a missing sample.
+  /// As OptionalNumber, and nullopt also for what StandsForMissing, such as NaN.
   std::optional<double> OptionalSample(std::size_t row, std::size_t column) const;
 
   int Line(std::size_t row) const { return static_cast<int>(row) + 2; }

@@ -71,6 +71,20 @@ StampedFile Stamp(const fs::path& file, const FrameNames& names) {
   return stamped;
 }
 
+// What names too near to each other for nanoseconds count, and the remedy. Times since 1970 show
+// their unit by their size.
+std::string LikelyMeaning(std::int64_t name) {
+  constexpr std::int64_t kFirst_s = 1'000'000'000, kLast_s = 3'000'000'000;  // the years 2001, 2065
+  const auto is_time = [&](std::int64_t per_s) {
+    return name >= kFirst_s * per_s && name < kLast_s * per_s;
+  };
+  const std::string key = ": give their rate in recording.yaml (frame_rate_Hz: ";
+  if (is_time(1)) return "seconds since 1970" + key + "1)";
+  if (is_time(1000)) return "milliseconds since 1970" + key + "1000)";
+  if (is_time(1'000'000)) return "microseconds since 1970" + key + "1000000)";
+  return "numbers of frames" + key + "30)";
+}
+
 // Numbers of frames, as 0001 and 0002, would pass for nanoseconds.
 void RefuseFrameNumbers(const std::vector<StampedFile>& files) {
   const auto is_whole = [](const StampedFile& file) {
@@ -85,12 +99,11 @@ void RefuseFrameNumbers(const std::vector<StampedFile>& files) {
   const bool one_small =
       files.size() == 1 && files[0].t_ns > 0 && (padded || files[0].t_ns < kShortestStep_ns);
   if (!too_near && !one_small) return;
-  throw InputError(
-      SourceLocation{files.front().file.parent_path().string()},
-      "names are times in nanoseconds, and " + first +
-          (steps > 0 ? " to " + files.back().file.filename().string() : "") +
-          " look like numbers of frames: give their rate in recording.yaml (frame_rate_Hz: 30), or "
-          "rename them to their times (1712000000.png, or 1.712.png in seconds)");
+  throw InputError(SourceLocation{files.front().file.parent_path().string()},
+                   "names are times in nanoseconds, and " + first +
+                       (steps > 0 ? " to " + files.back().file.filename().string() : "") +
+                       " look like " + LikelyMeaning(files.front().t_ns) +
+                       ", or rename them to their times (1712000000.png, or 1.712.png in seconds)");
 }
 
 }  // namespace

@@ -30,8 +30,7 @@ TetMesh MakeQuadratic(const TetMesh& mesh) {
   if (mesh.element_type() == ElementType::kTet10) return mesh;
   PALPATE_CHECK(mesh.cells.rows() == 4, mesh.cells.rows());
   TetMesh quadratic;
-  quadratic.group_of_cell = mesh.group_of_cell;
-  quadratic.group_names = mesh.group_names;
+  quadratic.groups = mesh.groups;
   quadratic.cells.resize(10, mesh.CellCount());
   quadratic.cells.topRows(4) = mesh.cells;
 

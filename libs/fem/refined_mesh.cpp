@@ -85,10 +85,7 @@ class CellCutter {
 TetMesh RefineUniformly(const TetMesh& mesh) {
   PALPATE_CHECK(mesh.element_type() == ElementType::kTet4, mesh.cells.rows());
   const TetMesh quadratic = MakeQuadratic(mesh);
-  return {.nodes_m = quadratic.nodes_m,
-          .cells = CellCutter(quadratic).cells(),
-          .group_of_cell = {},
-          .group_names = {}};
+  return {.nodes_m = quadratic.nodes_m, .cells = CellCutter(quadratic).cells(), .groups = {}};
 }
 
 }  // namespace palpate::fem

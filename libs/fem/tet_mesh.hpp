@@ -13,15 +13,21 @@ namespace palpate::fem {
 /// TETRA; Gmsh swaps the last two, which the reader corrects).
 enum class ElementType { kTet4 = 4, kTet10 = 10 };
 
+/// Cells under a common name: a physical volume, an element set, a value of cell data.
+struct CellGroup {
+  std::string name;
+  std::vector<int> cells;  ///< rising
+  bool operator==(const CellGroup&) const = default;
+};
+
 /// A volume mesh at rest. Node numbers are those of the file; mid-edge nodes that we make
 /// ourselves follow after the last of them.
 struct TetMesh {
   Eigen::Matrix3Xd nodes_m;  ///< [3 x n] rest positions, robot frame, m
   Eigen::MatrixXi cells;     ///< [4 or 10 x m] node indices, positively oriented
 
-  /// Physical group of each cell (Gmsh), as an index into group_names; -1: none. Size m or 0.
-  std::vector<int> group_of_cell;
-  std::vector<std::string> group_names;
+  /// Groups that the file names, each with a cell at least. They may overlap.
+  std::vector<CellGroup> groups;
 
   int NodeCount() const { return static_cast<int>(nodes_m.cols()); }
   int CellCount() const { return static_cast<int>(cells.cols()); }

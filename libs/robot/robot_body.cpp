@@ -136,6 +136,25 @@ Eigen::Vector3d Centroid_m(const fem::TetMesh& mesh, int cell) {
   return sum_m / 4.0;
 }
 
+std::vector<int> CellsOf(const RegionSettings& region, const fem::TetMesh& mesh) {
+  if (!region.mesh_group.empty()) {
+    std::vector<std::string> names;
+    for (const fem::CellGroup& group : mesh.groups) {
+      if (group.name == region.mesh_group) return group.cells;
+      names.push_back(group.name);
+    }
+    throw InputError(region.where,
+                     "the mesh has no group '" + region.mesh_group + "'" +
+                         DidYouMean(region.mesh_group, names) +
+                         (names.empty() ? "; it has none" : "; there is " + Listed(names)));
+  }
+  std::vector<int> cells;
+  for (int cell = 0; cell < mesh.CellCount(); ++cell) {
+    if (region.box.Contains(Centroid_m(mesh, cell))) cells.push_back(cell);
+  }
+  return cells;
+}
+
 void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
   body->materials.push_back(robot.material);
   WarnOfUnit("material", robot.material.youngs_modulus_Pa, &body->warnings);
@@ -150,19 +169,16 @@ void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
     }
     body->materials.push_back(material);
     body->region_names.push_back(region.name);
-    for (int cell = 0; cell < body->mesh.CellCount(); ++cell) {
-      if (region.box.Contains(Centroid_m(body->mesh, cell))) {
-        body->material_of_cell[At(cell)] = index;
-      }
-    }
+    for (const int cell : CellsOf(region, body->mesh)) body->material_of_cell[At(cell)] = index;
   }
   for (size_t k = 0; k < robot.regions.size(); ++k) {
     const auto& of_cell = body->material_of_cell;
     if (std::find(of_cell.begin(), of_cell.end(), static_cast<int>(k) + 1) == of_cell.end()) {
       throw InputError(
           robot.regions[k].where,
-          "region '" + robot.regions[k].name +
-              "' has no element: no centroid lies in its box, or later regions take all");
+          "region '" + robot.regions[k].name + "' has no element: " +
+              (robot.regions[k].mesh_group.empty() ? "no centroid lies in its box, or " : "") +
+              "later regions take all");
     }
   }
 }

@@ -203,9 +203,16 @@ RegionSettings ReadRegion(const ConfigNode& node, std::set<std::string>* names) 
   RegionSettings region;
   region.where = node.where;
   region.name = ReadUniqueName(map.Require("name"), names);
-  region.box = ReadBox(map.Require("box_m"));
+  const ConfigNode* box = map.Optional("box_m");
+  const ConfigNode* group = map.Optional("mesh_group");
+  map.Read("mesh_group", &region.mesh_group);
   map.Read("youngs_modulus_Pa", &region.youngs_modulus_Pa);
   map.Finish();
+  if ((box != nullptr) == (group != nullptr)) {
+    Refuse(node, "needs either box_m, or mesh_group for a group of elements of the mesh file");
+  }
+  if (box != nullptr) region.box = ReadBox(*box);
+  if (group != nullptr) region.where = group->where;
   return region;
 }
 

@@ -54,6 +54,7 @@ struct RegionSettings {
   Box box;  ///< takes the elements whose centroid lies inside; a later region wins over an earlier
   std::optional<double> youngs_modulus_Pa;
   SourceLocation where;
+  std::string mesh_group = {};  ///< not empty: takes the elements of this group instead
 };
 
 struct MarkerSettings {

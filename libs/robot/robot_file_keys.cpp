@@ -12,7 +12,7 @@ const KeyTable& MeshKeys() {
       .title = "mesh",
       .about = "The tetrahedral mesh of the undeformed body, and its place in the robot frame.",
       .keys = {{"file", value::File(), kRequired,
-                "Mesh: `.msh` (Gmsh 2.2 or 4.1), `.vtk` or `.vtu`; 4-node or 10-node tetrahedra."},
+                "Mesh: `.msh`, `.vtk`, `.vtu`, `.inp` or `.mesh`; 4-node or 10-node tetrahedra."},
                {"unit", value::Choice({"m", "cm", "mm"}), kRequired,
                 "Unit of the coordinates in the mesh file."},
                {"rotate_xyz_deg", value::Vector3(), Default(MeshSettings{}.rotate_xyz_deg),
@@ -94,13 +94,17 @@ const KeyTable& RegionKeys() {
   static const KeyTable keys{
       .title = "region",
       .about =
-          "A named part of the body: the elements whose centroid lies in the box. A later "
-          "region wins over an earlier one.",
+          "A named part of the body: the elements whose centroid lies in the box, or those of a "
+          "group of the mesh file. A later region wins over an earlier one.",
       .keys = {{"name", value::Text(), kRequired, "Unique name."},
-               {"box_m", value::Points(2, 2), kRequired,
+               {"box_m", value::Points(2, 2), kOptional,
                 "Lower and upper corner `[[x, y, z], [x, y, z]]`, robot frame."},
+               {"mesh_group", value::Text(), kOptional,
+                "Name of a group of elements in the mesh file, as `palpate info MESH` lists them: "
+                "a physical volume, an element set, or `NAME=VALUE` of cell data."},
                {"youngs_modulus_Pa", value::Real(kPositive), kOptional,
-                "Young's modulus of this region. Absent: that of the body."}}};
+                "Young's modulus of this region. Absent: that of the body."}},
+      .exactly_one = {{"box_m", "mesh_group"}}};
   return keys;
 }
 

@@ -76,7 +76,9 @@ std::string CableText(const CableSettings& cable) {
 }
 
 std::string RegionText(const RegionSettings& region) {
-  std::string text = "  - {name: " + Quoted(region.name) + ", " + BoxText(region.box);
+  std::string text = "  - {name: " + Quoted(region.name) + ", " +
+                     (region.mesh_group.empty() ? BoxText(region.box)
+                                                : "mesh_group: " + Quoted(region.mesh_group));
   if (region.youngs_modulus_Pa) {
     text += ", youngs_modulus_Pa: " + FormatNumber(*region.youngs_modulus_Pa);
   }

@@ -146,10 +146,11 @@ Status AravisCamera::Start(const StreamSettings& settings, int packet_limit_byte
   if (!sized.ok()) return sized;
   const auto payload = impl_->features.Integer("PayloadSize");
   if (!payload || *payload <= 0 || *payload > kGreatestPayload_bytes) {
-    return {StatusCode::kInvalidInput,
-            "the camera's PayloadSize is " +
-                (payload ? std::to_string(*payload) + " bytes" : std::string("missing")) +
-                ", not in [1, 268435456]"};
+    std::string message = "the camera's PayloadSize is " +
+                          (payload ? std::to_string(*payload) + " bytes" : "missing") +
+                          ", not in [1, 268435456]";
+    for (const std::string& note : impl_->features.Notes()) message += "; " + note;
+    return {StatusCode::kInvalidInput, message};
   }
   if (ARV_IS_GV_DEVICE(impl_->device.get())) {
     arv_gv_device_set_stream_options(ARV_GV_DEVICE(impl_->device.get()),

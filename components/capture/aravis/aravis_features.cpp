@@ -33,6 +33,7 @@ bool AravisFeatures::IsUsable(ArvGcNode* node) {
 std::optional<double> AravisFeatures::Number(const std::string& name) {
   ArvGcNode* node = Node(name);
   if (node == nullptr || !Has(name)) return std::nullopt;
+  if (formulas_.Fails(node)) return formulas_.Value(node);
   GErrorHolder error;
   double value = 0.0;
   if (ARV_IS_GC_FLOAT(node)) {
@@ -48,6 +49,12 @@ std::optional<double> AravisFeatures::Number(const std::string& name) {
 std::optional<std::int64_t> AravisFeatures::Integer(const std::string& name) {
   ArvGcNode* node = Node(name);
   if (node == nullptr || !ARV_IS_GC_INTEGER(node) || !Has(name)) return std::nullopt;
+  if (formulas_.Fails(node)) {
+    constexpr double kGreatest = 9e15;  // doubles hold whole numbers up to there
+    const std::optional<double> value = formulas_.Value(node);
+    return value && std::abs(*value) < kGreatest ? std::optional<std::int64_t>(std::llround(*value))
+                                                 : std::nullopt;
+  }
   GErrorHolder error;
   const std::int64_t value = arv_gc_integer_get_value(ARV_GC_INTEGER(node), error.Take());
   return error.ok() ? std::optional(value) : std::nullopt;
@@ -113,7 +120,7 @@ Status AravisFeatures::Set(const std::string& name, const FeatureValue& value) {
              whole && ARV_IS_GC_INTEGER(node)) {
     arv_gc_integer_set_value(ARV_GC_INTEGER(node), *whole, error.Take());
   } else if (const double* number = std::get_if<double>(&value); number && ARV_IS_GC_FLOAT(node)) {
-    arv_gc_float_set_value(ARV_GC_FLOAT(node), *number, error.Take());
+    return SetFloat(ARV_GC_FLOAT(node), *number);
   } else if (const double* other = std::get_if<double>(&value);
              other && ARV_IS_GC_INTEGER(node) && !ARV_IS_GC_ENUMERATION(node)) {
     arv_gc_integer_set_value(ARV_GC_INTEGER(node), std::llround(*other), error.Take());
@@ -124,6 +131,19 @@ Status AravisFeatures::Set(const std::string& name, const FeatureValue& value) {
     return {StatusCode::kInvalidInput, name + " is of another type"};
   }
   return error.ok() ? Status::Ok() : Status(StatusCode::kInvalidInput, error.text());
+}
+
+/// A real number that an integer stands behind is cut by Aravis: 15699.999999999998 to 15699. Where
+/// the device shows that, the nearest integer is set.
+Status AravisFeatures::SetFloat(ArvGcFloat* node, double number) {
+  GErrorHolder error;
+  arv_gc_float_set_value(node, number, error.Take());
+  if (!error.ok()) return {StatusCode::kInvalidInput, error.text()};
+  const double nearest = std::round(number);
+  const double shown = arv_gc_float_get_value(node, error.Take());
+  const bool is_cut = error.ok() && shown == std::trunc(number) && shown != nearest;
+  if (is_cut) arv_gc_float_set_value(node, nearest, error.Take());
+  return is_cut && !error.ok() ? Status(StatusCode::kInvalidInput, error.text()) : Status::Ok();
 }
 
 Status AravisFeatures::Execute(const std::string& command) {

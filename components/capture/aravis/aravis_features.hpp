@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/capture/aravis/formula_values.hpp"
 #include "components/capture/genicam/features.hpp"
 
 namespace palpate::capture {
@@ -16,7 +17,7 @@ namespace palpate::capture {
 /// The features of a device that Aravis opened. The device must outlive this.
 class AravisFeatures : public Features {
  public:
-  explicit AravisFeatures(ArvDevice* device) : device_(device) {}
+  explicit AravisFeatures(ArvDevice* device) : device_(device), formulas_(device) {}
 
   bool Has(const std::string& name) override;
   std::optional<double> Number(const std::string& name) override;
@@ -27,12 +28,15 @@ class AravisFeatures : public Features {
   std::optional<std::pair<std::int64_t, std::int64_t>> Range(const std::string& name) override;
   Status Set(const std::string& name, const FeatureValue& value) override;
   Status Execute(const std::string& command) override;
+  std::vector<std::string> Notes() const override { return formulas_.notes(); }
 
  private:
   ArvGcNode* Node(const std::string& name);
   static bool IsUsable(ArvGcNode* node);
+  static Status SetFloat(ArvGcFloat* node, double number);
 
   ArvDevice* device_;
+  FormulaValues formulas_;
 };
 
 }  // namespace palpate::capture

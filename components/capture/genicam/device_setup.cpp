@@ -48,6 +48,7 @@ class Configurer {
     if (!color_component_.empty()) ChooseColorFormat();
     if (setup_.status.ok()) SetTaking();
     if (setup_.status.ok()) ReadBack();
+    for (const std::string& note : features_.Notes()) Note(note);
     return std::move(setup_);
   }
 

@@ -38,6 +38,9 @@ class Features {
   /// Not ok, with the device's reason, where it refuses.
   virtual Status Set(const std::string& name, const FeatureValue& value) = 0;
   virtual Status Execute(const std::string& command) = 0;
+
+  /// What was read otherwise than the device describes it, one sentence each.
+  virtual std::vector<std::string> Notes() const { return {}; }
 };
 
 /// Chooses an entry of a selector; false where there is no such selector or entry.

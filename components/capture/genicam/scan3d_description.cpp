@@ -169,6 +169,11 @@ class Reader {
            setting + ")");
       return middle_px;
     }
+    if (*reported == 0.0) {
+      Note(std::string("the camera reports 0 for its principal point, as where it is not known: ") +
+           "the middle is taken (" + setting + ")");
+      return middle_px;
+    }
     const double point_px = *reported - first_px;
     if (!Within(point_px, -0.5 * size_px, 1.5 * size_px)) {
       Refuse(std::string(name) + " is " + FormatNumber(point_px) + " px of an image of " +

@@ -155,9 +155,6 @@ Status ShapeForceEstimator::Impl::StartFromFreeState(const ShapeFrame& frame) {
 }
 
 Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
-  if (std::exchange(calibrates_, false)) {
-    if (Status status = bias_.Finish(); !status.ok()) return status;
-  }
   if (!fit_.started()) {
     if (Status status = StartFromFreeState(frame); !status.ok()) return status;
   }
@@ -165,6 +162,9 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
     PublishState();
     return {StatusCode::kNoRobotSeen,
             "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
+  }
+  if (std::exchange(calibrates_, false)) {
+    if (Status status = bias_.Finish(); !status.ok()) return status;
   }
   if (!bias_.known()) bias_.SetShared(bias_.Shared());
   fit_.FitAlong(bias_.known() ? nullptr : &bias_);

@@ -21,6 +21,7 @@ namespace palpate::command {
 namespace {
 
 using Family = FileKind::Family;
+using Json = nlohmann::ordered_json;
 
 std::string SizeText(const Eigen::Vector3d& size) {
   return fmt::format("{:.4g} x {:.4g} x {:.4g}", size.x(), size.y(), size.z());
@@ -120,16 +121,20 @@ Findings DescribeMesh(const std::filesystem::path& file, const std::string& unit
   const fem::MeshReport report = fem::ReportMesh(mesh);
   const std::vector<std::string> warnings = DoubtUnit(report.max_m - report.min_m, unit);
   Findings found;
+  Json groups = Json::array();
+  for (const fem::CellGroup& group : mesh.groups) {
+    groups.push_back({{"name", group.name}, {"cells", group.cells.size()}});
+  }
   found.json = {{"mesh", MeshJson(report)},
                 {"unit", unit.empty() ? "unknown" : unit},
-                {"groups", mesh.group_names},
+                {"groups", groups},
                 {"warnings", warnings},
                 {"notes", notes}};
   found.text = unit.empty() ? fmt::format("mesh {}\n{}", file.string(), UnitlessText(report))
                             : fmt::format("mesh {}, lengths read as {}\n{}", file.string(), unit,
                                           fem::ToText(report));
-  if (!mesh.group_names.empty()) {
-    found.text += "  groups              " + Listed(mesh.group_names) + "\n";
+  for (const fem::CellGroup& group : mesh.groups) {
+    found.text += fmt::format("  group '{}': {} cells\n", group.name, group.cells.size());
   }
   for (const std::string& warning : warnings) found.text += "warning: " + warning + "\n";
   for (const std::string& note : notes) found.text += "note: " + note + "\n";

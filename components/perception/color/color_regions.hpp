@@ -10,7 +10,7 @@
 namespace palpate::perception {
 
 /// Colour-based region growing (Zhan, Liang and Xiao 2009), by PCL: the points of each region.
-/// Points in none were in too small a region.
+/// Points in none were in too small a region, with no large one within both thresholds.
 std::vector<std::vector<int>> GrowRegions(const VoxelCloud& cloud, const ColorConfig& config);
 
 }  // namespace palpate::perception

@@ -10,6 +10,7 @@
 
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/cloud_builder.hpp"
+#include "components/perception/model/disagreement.hpp"
 #include "components/perception/model/pixel_classifier.hpp"
 #include "components/perception/model/prediction_view.hpp"
 #include "components/perception/noise_law.hpp"
@@ -28,6 +29,8 @@ struct ModelSegmenter::Parts {
   void TakeRange();
   void ReadRegion(const rgbd::RgbdFrame& raw);
   void UpdateBackground(bool predicted);
+  double DepthRatio(const rgbd::RgbdFrame& raw);
+  Status ExplainNothingInRange(const rgbd::RgbdFrame& raw, const PredictedSurface* predicted);
   void FitPrediction(const PredictedSurface& predicted, PredictionView::Fitting fitting);
   Status SegmentByPrediction(const rgbd::RgbdFrame& raw, const PredictedSurface& predicted);
   Status SegmentByColor(const rgbd::RgbdFrame& raw);
@@ -151,8 +154,9 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   fitted = prediction.WholeSurface();
   prediction.Measure(registration, &region);
   classifier.ClassifyByDistance(registration, background, &region);
-  status = classifier.CheckAgreement(prediction, region);
-  if (!status.ok()) return status;
+  if (const auto pixels = classifier.FindDisagreement(prediction, region)) {
+    return Status(StatusCode::kNoRobotSeen, Disagreement(*pixels, DepthRatio(raw), config));
+  }
   const bool classify_colors = has_color && classifier.PrepareColors(frame, region, &result.notes);
   if (classify_colors) classifier.ClassifyByColor(frame, &region);
   filter.Smooth(&region);
@@ -160,6 +164,19 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   DropSpecks(tuning.least_patch_px);
   if (classify_colors) classifier.UpdateColors(frame, region);
   return status;
+}
+
+/// For messages. The depths are registered again, as those out of range were dropped.
+double ModelSegmenter::Parts::DepthRatio(const rgbd::RgbdFrame& raw) {
+  if (!registration.RegisterDepth(raw, &frame).ok()) return std::nan("");
+  return MedianDepthRatio(frame, prediction);
+}
+
+Status ModelSegmenter::Parts::ExplainNothingInRange(const rgbd::RgbdFrame& raw,
+                                                    const PredictedSurface* predicted) {
+  const bool rendered = predicted != nullptr && prediction.Render(*predicted).ok();
+  const double ratio = rendered ? DepthRatio(raw) : std::nan("");
+  return Status(StatusCode::kNoRobotSeen, NothingInRange(result.rejected, ratio, config));
 }
 
 /// At the start of a sequence, or where points behind the predicted surface contradict it, the
@@ -355,8 +372,7 @@ const SegmentedFrame& ModelSegmenter::Segment(const rgbd::RgbdFrame& frame,
   parts.TakeRange();
   const auto pixels = static_cast<std::int64_t>(parts.frame.z_m.values.size());
   if (result.rejected.invalid_depth + result.rejected.out_of_range == pixels) {
-    result.status =
-        Status(StatusCode::kNoRobotSeen, "no pixel of the depth image has a value in range");
+    result.status = parts.ExplainNothingInRange(frame, predicted);
     return result;
   }
   result.status = predicted != nullptr ? parts.SegmentByPrediction(frame, *predicted)

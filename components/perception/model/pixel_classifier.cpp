@@ -4,13 +4,8 @@
 #include "components/perception/model/pixel_classifier.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
-#include <utility>
-
-#include "libs/core/statistics.hpp"
 
 namespace palpate::perception {
 
@@ -22,54 +17,6 @@ std::size_t FirstPixel(const RegisteredFrame& frame, const PixelRegion& region, 
   return static_cast<std::size_t>(region.v_begin + row) *
              static_cast<std::size_t>(frame.z_m.width_px) +
          static_cast<std::size_t>(region.u_begin);
-}
-
-/// Pixels with depth where the robot is predicted.
-struct PixelCounts {
-  std::int64_t agree = 0;
-  std::int64_t seen = 0;    ///< agree, or are not hidden
-  std::int64_t hidden = 0;  ///< something is much nearer there
-};
-
-/// Measured over predicted depth, median of the pixels where the robot is predicted; NaN: none.
-double MedianRatio(const PredictionView& prediction, const PixelRegion& region) {
-  std::vector<double> ratios;
-  for (int row = 0; row < region.height; ++row) {
-    for (int column = 0; column < region.width; ++column) {
-      const int u = region.u_begin + column, v = region.v_begin + row;
-      const float z_m = region.z_m[region.At(column, row)];
-      if (z_m <= 0.0f || !prediction.Covers(u, v)) continue;
-      ratios.push_back(static_cast<double>(z_m / prediction.Z_m(u, v)));
-    }
-  }
-  return Median(std::move(ratios));
-}
-
-std::string Disagreement(const PixelCounts& pixels, double ratio, int least) {
-  // No error of a pose brings a robot so near, or so far away.
-  constexpr double kSmallest = 0.6, kLargest = 1.7;
-  const std::string intro = "the depth image does not agree with the predicted robot: ";
-  if (pixels.seen + pixels.hidden == 0) {
-    return intro +
-           "no pixel has a depth near to where it is predicted: are the camera's pose and the unit "
-           "of depth (unit_m of camera.yaml) right?";
-  }
-  if (ratio < kSmallest || ratio > kLargest) {
-    std::array<char, 32> factor{};
-    std::snprintf(factor.data(), factor.size(), "%.2g", ratio < 1.0 ? 1.0 / ratio : ratio);
-    return intro + "its depths are " + factor.data() + " times too " +
-           (ratio < 1.0 ? "near" : "far") +
-           " (median of the robot's pixels): does something hide the robot, or is the unit of "
-           "depth wrong (unit_m of camera.yaml)?";
-  }
-  if (pixels.seen == 0) {
-    return intro + "something nearer hides all of its " + std::to_string(pixels.hidden) + " pixels";
-  }
-  const std::string counts = std::to_string(pixels.agree) + " of " + std::to_string(pixels.seen);
-  if (pixels.agree >= least) return intro + counts + " pixels do";
-  return "too few pixels show the robot: " + counts +
-         " that are not hidden agree with the prediction, at least " + std::to_string(least) +
-         " must";
 }
 
 }  // namespace
@@ -123,8 +70,8 @@ void PixelClassifier::ClassifyBackground(const Registration& registration,
   }
 }
 
-Status PixelClassifier::CheckAgreement(const PredictionView& prediction,
-                                       const PixelRegion& region) const {
+std::optional<PixelCounts> PixelClassifier::FindDisagreement(const PredictionView& prediction,
+                                                             const PixelRegion& region) const {
   PixelCounts pixels;
   const auto largest_m = static_cast<float>(config_.largest_error_m);
   for (int row = 0; row < region.height; ++row) {
@@ -142,9 +89,7 @@ Status PixelClassifier::CheckAgreement(const PredictionView& prediction,
   const bool enough = pixels.agree >= config_.min_robot_pixels &&
                       static_cast<double>(pixels.agree) >=
                           tuning_.least_agreement * static_cast<double>(pixels.seen);
-  if (enough) return Status::Ok();
-  return Status(StatusCode::kNoRobotSeen,
-                Disagreement(pixels, MedianRatio(prediction, region), config_.min_robot_pixels));
+  return enough ? std::nullopt : std::optional(pixels);
 }
 
 void PixelClassifier::TakeSample(const RegisteredFrame& frame, const PixelRegion& region,

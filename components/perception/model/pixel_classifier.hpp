@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/perception/config.hpp"
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/color_model.hpp"
+#include "components/perception/model/disagreement.hpp"
 #include "components/perception/model/pixel_region.hpp"
 #include "components/perception/model/prediction_view.hpp"
 #include "components/perception/model/rare_colors.hpp"
@@ -68,8 +70,9 @@ class PixelClassifier {
   /// The same where no surface is predicted: the background alone decides.
   void ClassifyBackground(const Registration& registration, const BackgroundPlanes& background,
                           PixelRegion* region) const;
-  /// kNoRobotSeen where too few pixels of the predicted surface agree with it.
-  Status CheckAgreement(const PredictionView& prediction, const PixelRegion& region) const;
+  /// nullopt where enough pixels of the predicted surface agree with it.
+  std::optional<PixelCounts> FindDisagreement(const PredictionView& prediction,
+                                              const PixelRegion& region) const;
 
   /// Compares the colours of pixels that the distance classifies. False: no information. Where the
   /// model is uninitialised, or the light has changed, it is initialised here. Notes are for the

@@ -7,15 +7,13 @@
 #include <cctype>
 
 #include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/cloud/scalar.hpp"
+#include "libs/experiment/table_text.hpp"
 
 namespace palpate::experiment {
 
 namespace {
-
-constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 
 std::string_view Unwrapped(std::string_view cell) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -25,21 +23,15 @@ std::string_view Unwrapped(std::string_view cell) {
   return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
-bool StandsForNothing(std::string_view cell) {
-  const std::string word = LowerCase(cell);
-  return word.empty() || word == "nan" || word == "null" || word == "n/a" || word == "na";
-}
-
 }  // namespace
 
 CaptureText::CaptureText(const std::filesystem::path& file)
-    : file_(file.string()), bytes_(ReadFile(file)) {
+    : file_(file.string()), bytes_(ReadTableText(file)) {
   Rewind();
 }
 
 void CaptureText::Rewind() {
   rest_ = bytes_;
-  if (rest_.starts_with(kUtf8Mark)) rest_.remove_prefix(kUtf8Mark.size());
   line_number_ = 0;
   cells_.clear();
 }
@@ -80,7 +72,7 @@ std::optional<double> CaptureText::Number(std::size_t column) const {
   const std::string_view cell = Cell(column);
   double value = 0.0;
   if (ParseFinite(cell, &value)) return value;
-  if (StandsForNothing(cell)) return std::nullopt;
+  if (StandsForMissing(cell)) return std::nullopt;
   std::string with_point(cell);
   std::replace(with_point.begin(), with_point.end(), ',', '.');
   if (separator_ == ',' || !ParseFinite(with_point, &value)) {

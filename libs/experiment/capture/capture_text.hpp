@@ -14,7 +14,7 @@ namespace palpate::experiment {
 
 /// A table as a capture program exports it: lines of cells, whatever the cells are about. They are
 /// separated by ',' or, where the line at hand has some, by tabs or ';', and then a decimal comma
-/// is understood. Blanks and quotes around a cell are dropped.
+/// is understood. Blanks and quotes around a cell are dropped. See ReadTableText for encodings.
 class CaptureText {
  public:
   /// Throws InputError where the file cannot be read.
@@ -33,8 +33,7 @@ class CaptureText {
   std::string_view Cell(std::size_t column) const;
   /// No cell holds anything.
   bool IsBlank() const;
-  /// nullopt for an empty cell and for NaN, NULL and N/A, which stand for a missing sample. Throws
-  /// InputError for what is no finite number.
+  /// nullopt for what StandsForMissing. Throws InputError for what else is no finite number.
   std::optional<double> Number(std::size_t column) const;
   /// Throws InputError also for a missing one; `what` names it.
   double Require(std::size_t column, const std::string& what) const;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 
@@ -19,15 +20,22 @@ constexpr double kMillimetre_m = 1e-3;
 constexpr std::size_t kNumbersOfMarker = 3;
 constexpr std::size_t kNumbersOfBody = 16;  // x, y, z, three angles, residual, nine of a rotation
 
+/// Names of settings are words in upper case: NO_OF_FRAMES, FREQUENCY, EVENT, ...
+bool NamesSetting(std::string_view cell) {
+  const auto in_name = [](unsigned char c) {
+    return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_';
+  };
+  return cell.size() > 3 && std::isupper(static_cast<unsigned char>(cell.front())) != 0 &&
+         std::all_of(cell.begin(), cell.end(), in_name);
+}
+
 /// Lines "NAME<tab>value<tab>..." before the frames. At the end `text` stands at the line behind
 /// them.
 std::map<std::string, Row> ReadQualisysHeader(CaptureText& text) {
   std::map<std::string, Row> header;
   while (text.NextLine()) {
     const std::string_view name = text.Cell(0);
-    const bool is_key = !name.empty() && name.find('_') != std::string_view::npos &&
-                        std::isupper(static_cast<unsigned char>(name.front())) != 0;
-    if (!is_key && name != "FREQUENCY" && name != "DESCRIPTION") return header;
+    if (!NamesSetting(name)) return header;
     header[std::string(name)] = Row(text.cells().begin() + 1, text.cells().end());
   }
   throw InputError(SourceLocation{text.file()}, "no frame follows the header");

@@ -16,9 +16,7 @@ CapturedMarkers ReadExport(const std::filesystem::path& file,
   return read(text);
 }
 
-}  // namespace
-
-CapturedMarkers ReadCapture(const std::filesystem::path& file, const C3dOptions& options) {
+CapturedMarkers ReadAsWritten(const std::filesystem::path& file, const C3dOptions& options) {
   switch (KindOfCapture(file)) {
     case CaptureKind::kC3d: return ReadC3d(file, options);
     case CaptureKind::kMotive: return ReadExport(file, ReadMotiveCsv);
@@ -31,6 +29,14 @@ CapturedMarkers ReadCapture(const std::filesystem::path& file, const C3dOptions&
   throw InputError(SourceLocation{file.string()},
                    "is no motion capture that is read (C3D, CSV of Motive or Nexus, TSV of "
                    "Qualisys, TRC, or a table of the columns t_s, marker, x_m, y_m, z_m)");
+}
+
+}  // namespace
+
+CapturedMarkers ReadCapture(const std::filesystem::path& file, const C3dOptions& options) {
+  CapturedMarkers captured = ReadAsWritten(file, options);
+  TakeOutJumpsToOrigin(&captured);
+  return captured;
 }
 
 }  // namespace palpate::experiment

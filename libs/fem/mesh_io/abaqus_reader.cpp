@@ -116,8 +116,9 @@ class AbaqusReader {
     ++keywords_;
     const Keyword keyword = ParseKeyword();
     take_ = &AbaqusReader::PassOver;
+    RefuseOtherFile(keyword);
     if (keyword.name == "NODE") {
-      take_ = &AbaqusReader::TakeNode;
+      BeginNodes(keyword);
     } else if (keyword.name == "ELEMENT") {
       BeginElements(keyword);
     } else if (keyword.name == "ELSET") {
@@ -126,9 +127,35 @@ class AbaqusReader {
       take_ = &AbaqusReader::TakeSet;
     } else if (keyword.name == "PART" && ++parts_ > 1) {
       Fail("a second *PART: save the body as one part");
-    } else if (keyword.name == "INCLUDE") {
-      Fail("*INCLUDE is not followed: put the mesh in one file");
+    } else if (keyword.name == "INSTANCE") {
+      take_ = &AbaqusReader::RefuseMove;
+    } else if (keyword.name == "NGEN" || keyword.name == "NFILL" || keyword.name == "NCOPY" ||
+               keyword.name == "ELGEN" || keyword.name == "ELCOPY" || keyword.name == "SYSTEM") {
+      Fail("*" + keyword.name + " is not read: write the nodes and elements themselves");
     }
+  }
+
+  void RefuseOtherFile(const Keyword& keyword) const {
+    const bool of_mesh =
+        keyword.name == "NODE" || keyword.name == "ELEMENT" || keyword.name == "ELSET";
+    if (keyword.name != "INCLUDE" && !(of_mesh && keyword.parameters.contains("INPUT"))) return;
+    Fail("*" + keyword.name + " names another file, which is not read: put the mesh in one file");
+  }
+
+  void BeginNodes(const Keyword& keyword) {
+    const std::string system = InUpperCase(keyword.Get("SYSTEM"));
+    if (!system.empty() && system != "R") {
+      Fail("nodes in cylindrical or spherical coordinates (SYSTEM=" + Excerpt(system) +
+           ") are not read, only rectangular ones");
+    }
+    take_ = &AbaqusReader::TakeNode;
+  }
+
+  /// A line below *INSTANCE shifts or turns the part.
+  void RefuseMove() {
+    Fail(
+        "the *INSTANCE moves its part: save the mesh in its place, or remove this line and give "
+        "translate_m of the robot file");
   }
 
   void BeginElements(const Keyword& keyword) {
@@ -217,8 +244,10 @@ class AbaqusReader {
       if (parts.size() < 2 || parts.size() > 3) Fail("expected first, last and step");
       const int64_t first = Integer(parts[0], "an element"), last = Integer(parts[1], "an element");
       const int64_t step = parts.size() == 3 ? Integer(parts[2], "a step") : 1;
-      if (last > kMaxCount) Fail("an element number is too large");
-      for (int64_t number = first; number <= last; number += step) AddToSet(number);
+      for (const auto& [number, tet] : tet_of_number_) {
+        const bool within = number >= first && number <= last && (number - first) % step == 0;
+        if (within && !set_.empty()) tets_of_set_[set_].push_back(tet);
+      }
       return;
     }
     for (const std::string_view part : parts) {

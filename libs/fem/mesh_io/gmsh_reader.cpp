@@ -28,7 +28,14 @@ void GmshReader::Read() {
 }
 
 void GmshReader::ReadFormat() {
-  if (scanner_.Token("$MeshFormat") != "$MeshFormat") {
+  std::string_view first = scanner_.Token("$MeshFormat");
+  while (first == "$Comments") {
+    scanner_.SkipPast("$EndComments");
+    first = scanner_.Token("$MeshFormat");
+  }
+  if (first == "$NOD")
+    scanner_.Fail("Gmsh format 1 is not read: gmsh -save -format msh41 writes 4.1");
+  if (first != "$MeshFormat") {
     scanner_.Fail("is no Gmsh file: it must begin with $MeshFormat");
   }
   version_ = ReadVersion();

@@ -143,16 +143,13 @@ void MeshBuilder::KeepOneOfEqualTets() {
   }
 }
 
-/// A cell of several groups is of the last one.
-void MeshBuilder::NameGroups(TetMesh* mesh) {
+std::vector<CellGroup> MeshBuilder::TakeGroups() {
   std::erase_if(groups_, [](const CellGroup& group) { return group.cells.empty(); });
-  if (groups_.empty()) return;
-  mesh->group_of_cell.assign(static_cast<size_t>(tet_count_), -1);
-  for (const CellGroup& group : groups_) {
-    const int index = static_cast<int>(mesh->group_names.size());
-    for (const int cell : group.cells) mesh->group_of_cell[At(cell)] = index;
-    mesh->group_names.push_back(group.name);
+  for (CellGroup& group : groups_) {
+    std::sort(group.cells.begin(), group.cells.end());
+    group.cells.erase(std::unique(group.cells.begin(), group.cells.end()), group.cells.end());
   }
+  return std::move(groups_);
 }
 
 TetMesh MeshBuilder::Finish(double metres_per_unit, std::vector<std::string>* notes) && {
@@ -165,7 +162,7 @@ TetMesh MeshBuilder::Finish(double metres_per_unit, std::vector<std::string>* no
     throw InputError(file_ + ": a coordinate is not finite once it is in metres");
   }
   mesh.cells = Eigen::Map<const Eigen::MatrixXi>(cells_.data(), nodes_per_cell_, tet_count_);
-  NameGroups(&mesh);
+  mesh.groups = TakeGroups();
   const std::string note = OrientCells(&mesh);
   if (!note.empty() && notes != nullptr) notes->push_back(file_ + ": " + note);
   return mesh;

@@ -13,12 +13,6 @@
 
 namespace palpate::fem::mesh_io {
 
-/// Cells with a common name; groups may overlap.
-struct CellGroup {
-  std::string name;
-  std::vector<int> cells;
-};
-
 /// Collects what a reader finds and makes the TetMesh of it. Nodes come before cells.
 class MeshBuilder {
  public:
@@ -58,7 +52,7 @@ class MeshBuilder {
   [[noreturn]] void FailAtCell(const std::string& message) const;
   void CheckNodes(std::span<const int64_t> nodes) const;
   void KeepOneOfEqualTets();
-  void NameGroups(TetMesh* mesh);
+  std::vector<CellGroup> TakeGroups();
 
   std::string file_;
   std::vector<double> coordinates_;  ///< x y z of each node, unit of the file

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 #include "libs/core/check.hpp"
@@ -55,7 +56,10 @@ Reader ReaderOf(MeshKind kind) {
 TetMesh ReadMesh(const std::filesystem::path& file, double metres_per_unit,
                  std::vector<std::string>* notes) {
   PALPATE_CHECK(std::isfinite(metres_per_unit) && metres_per_unit > 0.0, metres_per_unit);
-  const std::string bytes = LoadBytes(file);
+  constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+  const std::string loaded = LoadBytes(file);
+  std::string_view bytes = loaded;
+  if (bytes.starts_with(kUtf8Mark)) bytes.remove_prefix(kUtf8Mark.size());
   const Reader read = ReaderOf(KindOfMesh(file, bytes));
   if (read == nullptr) {
     throw InputError(file.string() + ": unknown mesh format '" + file.extension().string() +

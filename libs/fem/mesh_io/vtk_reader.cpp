@@ -93,7 +93,7 @@ class LegacyReader {
     ReadHeader();
     while (!points_read_ || !cells_ || !types_) ReadSection();
     AddCells();
-    ReadCellData();
+    ReadAttributes();
   }
 
  private:
@@ -107,9 +107,11 @@ class LegacyReader {
   void SkipField();
   void SkipFieldValues(std::string_view type_name, int64_t count);
   void AddCells();
-  void ReadCellData();
-  void ReadCellScalars();
-  void ReadCellField();
+  void ReadAttributes();
+  void BeginAttributes(bool of_cells);
+  void ReadScalars();
+  void ReadAttributeField();
+  bool SkipAttribute(const std::string& keyword);
   void TakeCellArray(const std::string& name, ScalarType type, int64_t components);
 
   int64_t ReadCount(const char* what) { return scanner_.TextInteger(0, kMaxCount, what); }
@@ -137,6 +139,8 @@ class LegacyReader {
   bool points_read_ = false;
   std::optional<CellArray> cells_;
   std::optional<std::vector<int64_t>> types_;
+  bool of_cells_ = false;        ///< the attributes at hand, else of points
+  int64_t attribute_count_ = 0;  ///< cells or points that have them
 };
 
 void LegacyReader::ReadHeader() {
@@ -308,33 +312,38 @@ void LegacyReader::AddCells() {
 }
 
 /// What follows the cells is read as far as it is understood: it only names groups.
-void LegacyReader::ReadCellData() {
-  if (UpperCase(scanner_.TokenOrEnd()) == "METADATA") {
-    SkipMetadata();
-    scanner_.TokenOrEnd();
-  }
-  if (UpperCase(scanner_.LastToken()) != "CELL_DATA") return;
-  if (ReadCount("the number of cells") != builder_->VtkCellCount()) {
-    scanner_.Fail("CELL_DATA has another number of cells than CELLS");
-  }
+void LegacyReader::ReadAttributes() {
   while (true) {
     const std::string keyword = UpperCase(scanner_.TokenOrEnd());
     if (keyword == "METADATA") {
       SkipMetadata();
+    } else if (keyword == "CELL_DATA" || keyword == "POINT_DATA") {
+      BeginAttributes(keyword == "CELL_DATA");
     } else if (keyword == "SCALARS") {
-      ReadCellScalars();
+      ReadScalars();
     } else if (keyword == "FIELD") {
-      ReadCellField();
-    } else {
+      ReadAttributeField();
+    } else if (!SkipAttribute(keyword)) {
       return;
     }
   }
 }
 
+void LegacyReader::BeginAttributes(bool of_cells) {
+  of_cells_ = of_cells;
+  attribute_count_ = ReadCount("the number of cells or points");
+  if (of_cells && attribute_count_ != builder_->VtkCellCount()) {
+    scanner_.Fail("CELL_DATA has another number of cells than CELLS");
+  }
+  if (!of_cells && attribute_count_ != builder_->NodeCount()) {
+    scanner_.Fail("POINT_DATA has another number of points than POINTS");
+  }
+}
+
 /// SCALARS name type [components], then LOOKUP_TABLE name.
-void LegacyReader::ReadCellScalars() {
+void LegacyReader::ReadScalars() {
   const std::string name(scanner_.Token("the name of an array"));
-  const ScalarType type = ReadType(&scanner_);
+  const std::string type_name(scanner_.Token("a data type"));
   std::string next(scanner_.Token("LOOKUP_TABLE"));
   int64_t components = 1;
   if (UpperCase(next) != "LOOKUP_TABLE") {
@@ -345,11 +354,49 @@ void LegacyReader::ReadCellScalars() {
     scanner_.Fail("expected LOOKUP_TABLE");
   }
   scanner_.Token("the name of a table");
+  const std::optional<ScalarType> type = FindType(type_name);
+  if (!of_cells_ || !type) {
+    SkipFieldValues(type_name, components * attribute_count_);
+    return;
+  }
   EndLine();
-  TakeCellArray(name, type, components);
+  TakeCellArray(name, *type, components);
 }
 
-void LegacyReader::ReadCellField() {
+/// Attributes other than scalars and fields name no group; false: `keyword` is none.
+bool LegacyReader::SkipAttribute(const std::string& keyword) {
+  static constexpr auto kComponents =
+      std::to_array<std::pair<std::string_view, int64_t>>({{"VECTORS", 3},
+                                                           {"NORMALS", 3},
+                                                           {"TENSORS", 9},
+                                                           {"TENSORS6", 6},
+                                                           {"GLOBAL_IDS", 1},
+                                                           {"PEDIGREE_IDS", 1}});
+  constexpr int64_t kMostComponents = 1000;
+  if (keyword == "COLOR_SCALARS" || keyword == "LOOKUP_TABLE") {
+    scanner_.Token("the name of an array");
+    const int64_t size = ReadCount("a size");
+    const bool table = keyword == "LOOKUP_TABLE";  // four bytes for each of its colours
+    if (!table && size > kMostComponents) scanner_.Fail("too many components");
+    SkipFieldValues("unsigned_char", table ? 4 * size : size * attribute_count_);
+    return true;
+  }
+  if (keyword == "TEXTURE_COORDINATES") {
+    scanner_.Token("the name of an array");
+    const int64_t size = scanner_.TextInteger(1, 3, "a dimension");
+    SkipFieldValues(std::string(scanner_.Token("a data type")), size * attribute_count_);
+    return true;
+  }
+  for (const auto& [name, components] : kComponents) {
+    if (name != keyword) continue;
+    scanner_.Token("the name of an array");
+    SkipFieldValues(std::string(scanner_.Token("a data type")), components * attribute_count_);
+    return true;
+  }
+  return false;
+}
+
+void LegacyReader::ReadAttributeField() {
   scanner_.Token("the name of the field");
   const int64_t arrays = ReadCount("the number of arrays");
   for (int64_t array = 0; array < arrays; ++array) {
@@ -363,7 +410,7 @@ void LegacyReader::ReadCellField() {
     const std::string type_name(scanner_.Token("a data type"));
     if (components > 0 && tuples > kMaxCount / components) scanner_.Fail("the array is too long");
     const std::optional<ScalarType> type = FindType(type_name);
-    if (!type || tuples != builder_->VtkCellCount()) {
+    if (!of_cells_ || !type || tuples != builder_->VtkCellCount()) {
       SkipFieldValues(type_name, components * tuples);
       continue;
     }

@@ -100,6 +100,15 @@ TEST(Scan3dDescription, RefusesWhatNoCameraHasAndNamesTheSettingThatMendsIt) {
   }
 }
 
+TEST(Scan3dDescription, APrincipalPointOfZeroCountsAsNotTold) {
+  MapFeatures f = ThreePartCamera();
+  f.values["Scan3dPrincipalPointU"] = 0.0;
+  const Scan3dReading reading = Read(f);
+  ASSERT_TRUE(reading.status.ok());
+  EXPECT_EQ(reading.description.camera.cx_px, 319.5);
+  EXPECT_THAT(reading.notes, testing::Contains(HasSubstr("reports 0 for its principal point")));
+}
+
 TEST(Scan3dDescription, WhatIsGivenCountsMoreThanWhatIsTold) {
   MapFeatures f = ThreePartCamera();
   for (const char* name : {"Scan3dFocalLength", "Scan3dPrincipalPointU", "Scan3dPrincipalPointV",

@@ -142,6 +142,68 @@ TEST(CaptureExports, ReadsTrc) {
   EXPECT_EQ(captured.rate_Hz, 100.0);
 }
 
+TEST(CaptureExports, ReadsTrcWhoseNamesStandInNeighbouringColumns) {
+  const std::string head =
+      "PathFileType\t4\nDataRate\tNumMarkers\tUnits\n100\t2\tmm\nFrame#\tTime\t";
+  const std::string rest = "\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n1\t0.0\t1\t2\t3\t4\t5\t6\n";
+  const CapturedMarkers captured = Read("dense.trc", head + "tip\tbase" + rest);
+  EXPECT_THAT(captured.tracks.names, ElementsAre("tip", "base"));
+  EXPECT_TRUE(At_mm(captured, 0, 1).isApprox(Eigen::Vector3d(4, 5, 6)));
+  EXPECT_THAT(RefusalOfExport("less.trc", head + "tip" + rest),
+              HasSubstr("NumMarkers is 2, and 1 names stand here"));
+}
+
+TEST(CaptureExports, QualisysEventsAreNoFrames) {
+  std::string head = kQualisysHead;
+  head.insert(head.find("MARKER_NAMES"), "EVENT\tpress\t1\t0.02\nTRAJECTORY_TYPES\tMeasured\n");
+  EXPECT_THAT(Read("qtm.tsv", head + "1\t2\t3\t4\t5\t6\n").tracks.names,
+              ElementsAre("tip", "base"));
+}
+
+TEST(CaptureExports, AJumpToTheOriginIsAGap) {
+  const std::string head =
+      "PathFileType\t4\nDataRate\tNumMarkers\tUnits\n100\t2\tmm\nFrame#\tTime\ttip\t\t\tbase\n"
+      "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n";
+  // `tip` moves through the origin; `base` is there in two frames only.
+  const CapturedMarkers captured =
+      Read("zero.trc", head +
+                           "1\t0.00\t-1\t0\t0\t40\t50\t60\n2\t0.01\t0\t0\t0\t0.000\t0.000\t-0.0\n"
+                           "3\t0.02\t1\t0\t0\t0\t0\t0\n4\t0.03\t2\t0\t0\t40\t50\t60\n");
+  for (std::size_t frame = 0; frame < 4; ++frame) {
+    EXPECT_TRUE(captured.tracks.frames[frame].positions_m[0].has_value()) << frame;
+    EXPECT_EQ(captured.tracks.frames[frame].positions_m[1].has_value(), frame == 0 || frame == 3);
+  }
+  EXPECT_THAT(captured.notes,
+              ElementsAre("2 samples at exactly 0, 0, 0 are taken as not seen: base"));
+  const CapturedMarkers always =
+      Read("always.trc", head + "1\t0.00\t0\t0\t0\t40\t50\t60\n2\t0.01\t0\t0\t0\t40\t50\t60\n");
+  EXPECT_TRUE(always.tracks.frames[1].positions_m[0].has_value());
+  EXPECT_THAT(always.notes, ElementsAre(HasSubstr("always at 0, 0, 0: tip")));
+}
+
+/// As Windows programs write "Unicode" text.
+std::string Utf16(const std::string& ascii) {
+  std::string bytes = "\xFF\xFE";
+  for (const char letter : ascii) bytes += {letter, '\0'};
+  return bytes;
+}
+
+TEST(CaptureExports, EncodingsAndLineEndsOfTextDoNotMatter) {
+  const std::string table = "t_s,marker,x_mm,y_mm,z_mm\n0,tip,1,2,3\n0.01,tip,4,5,6\n";
+  std::string crlf, cr;
+  for (const char letter : table) {
+    crlf += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
+    cr += letter == '\n' ? '\r' : letter;
+  }
+  for (const std::string& bytes : {"\xEF\xBB\xBF" + table, Utf16(table), crlf, cr}) {
+    const CapturedMarkers captured = Read("table.csv", bytes);
+    ASSERT_EQ(captured.tracks.frames.size(), 2u);
+    EXPECT_TRUE(At_mm(captured, 1, 0).isApprox(Eigen::Vector3d(4, 5, 6)));
+  }
+  EXPECT_THAT(Read("take.csv", Utf16(kMotive)).tracks.names,
+              ElementsAre("Arm:tip", "unlabelled_2"));
+}
+
 TEST(CaptureExports, SayWhereANumberOrATimeIsWrong) {
   EXPECT_THAT(RefusalOfExport("qtm.tsv", kQualisysHead + "1\t2\tx\t4\t5\t6\n"),
               AllOf(HasSubstr("qtm.tsv:9:"), HasSubstr("'x' is not a finite number")));
@@ -173,6 +235,18 @@ TEST(CaptureExports, PlainTablesMayHaveSemicolonsDecimalCommasAndNan) {
   const CapturedMarkers nan =
       Read("nan.csv", "t_s,marker,x_mm,y_mm,z_mm\n0,tip,1,2,3\n0.01,tip,NaN,NaN,NaN\n");
   EXPECT_FALSE(nan.tracks.frames[1].positions_m[0].has_value());
+  for (const std::string missing : {"", "nan", "-nan(ind)", "NULL", "#N/A", "1.#QNAN"}) {
+    const CapturedMarkers gap =
+        Read("gap.csv", "t_s,marker,x_mm,y_mm,z_mm\n0,tip,1,2,3\n0.01,tip," + missing + "," +
+                            missing + "," + missing + "\n");
+    EXPECT_FALSE(gap.tracks.frames[1].positions_m[0].has_value()) << missing;
+  }
+  const CapturedMarkers quoted =
+      Read("quoted.csv",
+           "\"t_s\",\"marker\",\"x_mm\",\"y_mm\",\"z_mm\"\n\"0,5\",\"tip\",\"1,25\",2,3\n");
+  EXPECT_TRUE(At_mm(quoted, 0, 0).isApprox(Eigen::Vector3d(1.25, 2, 3)));
+  EXPECT_THAT(RefusalOfExport("sep.csv", "sep=;\nt_s;marker;x_mm;y_mm;z_mm\n"),
+              HasSubstr("'sep=;' is no header"));
   EXPECT_THAT(RefusalOfExport("mixed.csv", "t_s;marker;x_mm;y_mm;z_mm\n0,0;tip;1,5;2.000;3\n"),
               HasSubstr("'2.000'"));
 }

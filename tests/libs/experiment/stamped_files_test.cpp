@@ -71,6 +71,23 @@ TEST_F(StampedFolder, NumbersOfFramesAreRefused) {
                     HasSubstr("frame_rate_Hz")));
 }
 
+TEST_F(StampedFolder, OtherUnitsOfTimeAreNamed) {
+  const auto message = [](const std::vector<std::string>& names) {
+    const TestFolder folder;
+    for (const std::string& name : names) folder.Write(name, "x");
+    return MessageOf([&] {
+      ListStampedFiles(folder.path(),
+                       {.extensions = {".ply"}, .skip_others = false, .frame_rate_Hz = {}});
+    });
+  };
+  EXPECT_THAT(message({"1712000000.ply", "1712000001.ply"}),
+              AllOf(HasSubstr("look like seconds"), HasSubstr("frame_rate_Hz: 1)")));
+  EXPECT_THAT(message({"1712000000000.ply", "1712000000033.ply"}),
+              AllOf(HasSubstr("look like milliseconds"), HasSubstr("frame_rate_Hz: 1000)")));
+  EXPECT_THAT(message({"1712000000000000.ply", "1712000000033333.ply"}),
+              AllOf(HasSubstr("look like microseconds"), HasSubstr("frame_rate_Hz: 1000000)")));
+}
+
 TEST_F(StampedFolder, NumbersOfFramesHaveTimesWithARate) {
   EXPECT_THAT(Times_ns({"frame_0000.ply", "frame_0003.ply"}, 30.0), ElementsAre(0, 100000000));
 }

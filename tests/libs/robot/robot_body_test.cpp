@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
 #include "libs/robot/body_mesh.hpp"
 #include "tests/libs/fem/points/meshes.hpp"
 #include "tests/libs/robot/robot_files.hpp"
@@ -177,6 +178,28 @@ TEST_F(RobotBodyTest, RegionsTakeTheCellsWithTheirCentroidInside) {
     const int expected = y_m > 0.08 ? 1 : y_m < 0.02 ? 2 : 0;
     EXPECT_EQ(body.material_of_cell[static_cast<size_t>(cell)], expected);
   }
+}
+
+TEST_F(RobotBodyTest, ARegionTakesAGroupOfTheMeshFile) {
+  const fem::TetMesh beam = Beam_mm();
+  std::string data = "CELL_DATA " + std::to_string(beam.CellCount()) +
+                     "\nSCALARS part int 1\nLOOKUP_TABLE default\n";
+  for (int cell = 0; cell < beam.CellCount(); ++cell) data += cell < 30 ? "1\n" : "2\n";
+  const std::string vtk = ReadFile(folder_ / "beam.vtk");
+  folder_.Write("beam.vtk", vtk + data);
+  const std::string box = "box_m: [[-0.02, 0, -0.02], [0.02, 0.02, 0.02]]";
+  const RobotBody body = Build(Changed(box, "mesh_group: part=1, youngs_modulus_Pa: 20e3"));
+  EXPECT_EQ(body.materials[2].youngs_modulus_Pa, 20e3);
+  for (int cell = 0; cell < body.mesh.CellCount(); ++cell) {
+    EXPECT_EQ(body.material_of_cell[static_cast<size_t>(cell)] == 2, cell < 30) << cell;
+  }
+  EXPECT_THAT(BuildRefusal(Changed(box, "mesh_group: part=3")),
+              AllOf(HasSubstr(":14:"), HasSubstr("the mesh has no group 'part=3', did you mean"),
+                    HasSubstr("there is part=1, part=2")));
+  EXPECT_THAT(BuildRefusal(Changed(box, box + ", mesh_group: part=1")),
+              HasSubstr("needs either box_m, or mesh_group"));
+  folder_.Write("beam.vtk", vtk);
+  EXPECT_THAT(BuildRefusal(Changed(box, "mesh_group: part=1")), HasSubstr("it has none"));
 }
 
 TEST_F(RobotBodyTest, ALaterRegionWins) {

@@ -49,6 +49,7 @@ void ExpectSameLists(const RobotDescription& a, const RobotDescription& b) {
     EXPECT_EQ(a.regions[k].box.lower_m, b.regions[k].box.lower_m);
     EXPECT_EQ(a.regions[k].box.upper_m, b.regions[k].box.upper_m);
     EXPECT_EQ(a.regions[k].youngs_modulus_Pa, b.regions[k].youngs_modulus_Pa);
+    EXPECT_EQ(a.regions[k].mesh_group, b.regions[k].mesh_group);
   }
   ASSERT_EQ(a.markers.size(), b.markers.size());
   for (size_t k = 0; k < a.markers.size(); ++k) {
@@ -65,6 +66,7 @@ TEST(WriteRobotFile, WhatIsReadBackIsTheSame) {
       Changed("element: tet10", "element: tet4"),
       Changed("poissons_ratio: 0.45", "poissons_ratio: 0.499, volumetric: pointwise"),
       Changed("name: test beam", "name: 'a \\ back'"),
+      Changed("box_m: [[-0.02, 0, -0.02], [0.02, 0.02, 0.02]]", "mesh_group: 'soft body: 1'"),
       Changed("{count: 12}", "[[0, 0.1, 0], [0.1e-7, 0.05, 0.0123456789]]")};
   for (const std::string& text : texts) {
     const RobotDescription robot = ReadText(text, "here/robot.yaml");

@@ -152,8 +152,7 @@ constexpr const char* kOverlapping22 =
 TEST(MeshFormats, AnElementOfTwoPhysicalGroupsCountsOnce) {
   const TetMesh mesh = ReadBytes({"m.msh", kOverlapping22});
   EXPECT_EQ(mesh.CellCount(), 2);
-  EXPECT_THAT(mesh.group_names, ElementsAre("all", "top"));
-  EXPECT_THAT(mesh.group_of_cell, ElementsAre(1, 0));
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"all", {0, 1}}, CellGroup{"top", {0}}));
   EXPECT_NEAR(ReportMesh(mesh).volume_m3, 1.0 / 3.0, 1e-15);
   EXPECT_TRUE(ReportMesh(mesh).duplicate_cells.empty());
 }
@@ -167,7 +166,7 @@ TEST(MeshFormats, Gmsh40IsRead) {
        "$Elements\n1 1\n1 3 4 1\n1 1 2 3 4\n$EndElements\n"});
   EXPECT_EQ(mesh.cells, Eigen::Vector4i(0, 1, 2, 3));
   EXPECT_EQ(mesh.nodes_m.col(3), Eigen::Vector3d(0, 0, 1));
-  EXPECT_THAT(mesh.group_names, ElementsAre("soft body"));
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"soft body", {0}}));
 }
 
 TEST(MeshFormats, PartitionsOfGmshAreReadTogether) {
@@ -181,7 +180,8 @@ TEST(MeshFormats, PartitionsOfGmshAreReadTogether) {
        "$Elements\n2 2 1 2\n3 2 4 1\n1 1 2 3 4\n3 3 4 1\n2 1 3 2 5\n$EndElements\n"});
   EXPECT_EQ(mesh.CellCount(), 2);
   EXPECT_NEAR(ReportMesh(mesh).volume_m3, 1.0 / 3.0, 1e-15);
-  EXPECT_THAT(mesh.group_of_cell, ElementsAre(0, 0)) << "the second has its parent's group";
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"soft body", {0, 1}}))
+      << "the second has its parent's group";
 }
 
 constexpr const char* kAbaqus =
@@ -195,7 +195,8 @@ TEST(MeshFormats, AbaqusGivesElementsAndTheirSets) {
   EXPECT_EQ(mesh.NodeCount(), 5);
   ASSERT_EQ(mesh.CellCount(), 2);
   EXPECT_EQ(mesh.cells.col(1), Eigen::Vector4i(0, 2, 1, 4));
-  EXPECT_THAT(mesh.group_names, ElementsAre("Volume1", "both", "top"));
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"Volume1", {0, 1}}, CellGroup{"both", {0, 1}},
+                                       CellGroup{"top", {0}}));
   EXPECT_THAT(RefusalOf({"m.inp", Replaced(kAbaqus, "C3D4", "C3D8")}),
               HasSubstr("m.inp:12: elements of type 'C3D8' are not read"));
   EXPECT_THAT(RefusalOf({"m.inp", Replaced(kAbaqus, "30, 20, 50", "30, 20")}),
@@ -215,8 +216,7 @@ TEST(MeshFormats, MeditGivesTetrahedraAndTheirReferences) {
   const TetMesh mesh = ReadBytes({"m.mesh", kMedit});
   ASSERT_EQ(mesh.CellCount(), 2);
   EXPECT_EQ(mesh.cells.col(1), Eigen::Vector4i(0, 2, 1, 4));
-  EXPECT_THAT(mesh.group_names, ElementsAre("6"));
-  EXPECT_THAT(mesh.group_of_cell, ElementsAre(-1, 0));
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"6", {1}}));
   EXPECT_THAT(RefusalOf({"m.mesh", Replaced(kMedit, "1 3 2 5 6", "1 3 2 9 6")}),
               HasSubstr("9 is outside 1 to 5"));
   EXPECT_THAT(RefusalOf({"m.mesh", Replaced(kMedit, "3\nVertices", "2\nVertices")}),
@@ -229,8 +229,45 @@ TEST(MeshFormats, WholeNumbersInCellDataNameGroups) {
                           "1 1 2 2 2 1\nFIELD FieldData 1\nquality 1 6 double\n"
                           "0.5 0.5 0.5 0.5 0.5 0.5\n";
   const TetMesh mesh = ReadBytes({"m.vtk", vtk});
-  EXPECT_THAT(mesh.group_names, ElementsAre("material=1", "material=2"));
-  EXPECT_THAT(mesh.group_of_cell, ElementsAre(0, 0, 1, 1, 1, 0));
+  EXPECT_THAT(mesh.groups,
+              ElementsAre(CellGroup{"material=1", {0, 1, 5}}, CellGroup{"material=2", {2, 3, 4}}));
+}
+
+TEST(MeshFormats, CellDataNameGroupsWhateverStandsBeforeThem) {
+  const std::string points = "\nPOINT_DATA 8\nSCALARS temperature double\nLOOKUP_TABLE heat\n" +
+                             std::string("0 1 2 3 4 5 6 7\nLOOKUP_TABLE heat 1\n0.1 0.2 0.3 1\n") +
+                             "VECTORS u float\n" + std::string(8, ' ') +
+                             "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 nan 0 0\n"
+                             "SCALARS on bit 1\nLOOKUP_TABLE default\n0 1 0 1 0 1 0 1\n";
+  const std::string cells =
+      "CELL_DATA 6\nNORMALS n float\n0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1\n"
+      "COLOR_SCALARS c 3\n0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1\n"
+      "SCALARS part short\nLOOKUP_TABLE default\n1 1 2 2 2 1\n";
+  const TetMesh mesh = ReadBytes({"m.vtk", test::AsciiVtk(CubeMesh(1)) + points + cells});
+  EXPECT_THAT(mesh.groups,
+              ElementsAre(CellGroup{"part=1", {0, 1, 5}}, CellGroup{"part=2", {2, 3, 4}}));
+  EXPECT_THAT(RefusalOf({"m.vtk", test::AsciiVtk(CubeMesh(1)) + "\nPOINT_DATA 7\n"}),
+              HasSubstr("another number of points"));
+}
+
+TEST(MeshFormats, WhatAbaqusWritesElsewhereIsRefused) {
+  const auto with = [](const std::string& line) {
+    return RefusalOf(
+        {"m.inp", Replaced(kAbaqus, "*ELSET, ELSET=top", line + "\n*ELSET, ELSET=top")});
+  };
+  EXPECT_THAT(with("*INSTANCE, NAME=i, PART=p\n1., 0., 0."), HasSubstr("moves its part"));
+  EXPECT_THAT(with("*INCLUDE, INPUT=nodes.inp"), HasSubstr("names another file"));
+  EXPECT_THAT(with("*ELSET, ELSET=a, INPUT=set.inp"), HasSubstr("names another file"));
+  EXPECT_THAT(with("*NODE, SYSTEM=C\n60, 1., 90., 0."), HasSubstr("SYSTEM=C"));
+  EXPECT_THAT(with("*NGEN\n1, 5"), HasSubstr("*NGEN is not read"));
+}
+
+TEST(MeshFormats, CommentsMayStandBeforeGmshsFormat) {
+  const TetMesh mesh = CubeMesh(1);
+  const std::string bytes = "$Comments\nmade by hand\n$EndComments\n" + test::AsciiGmsh22(mesh);
+  EXPECT_TRUE(test::SameMesh(ReadBytes({"m.msh", bytes}), mesh));
+  EXPECT_THAT(RefusalOf({"m.msh", "$NOD\n1\n1 0 0 0\n$ENDNOD\n"}), HasSubstr("Gmsh format 1"));
+  EXPECT_TRUE(test::SameMesh(ReadBytes({"m.msh", "\xEF\xBB\xBF" + test::AsciiGmsh22(mesh)}), mesh));
 }
 
 /// Two cubes side by side, each with nodes of its own at the seam.

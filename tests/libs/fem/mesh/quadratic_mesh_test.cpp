@@ -47,11 +47,9 @@ TEST(MakeQuadratic, KeepsCornersAndNumbersNewNodesInTheOrderOfTheCells) {
 
 TEST(MakeQuadratic, KeepsGroupsAndLeavesQuadraticMeshesAlone) {
   TetMesh mesh = test::CubeMesh(1);
-  mesh.group_of_cell = {0, 1, 0, 1, -1, 0};
-  mesh.group_names = {"leg", "top"};
+  mesh.groups = {{"leg", {0, 2, 5}}, {"top", {1, 3}}};
   const TetMesh once = MakeQuadratic(mesh);
-  EXPECT_EQ(once.group_of_cell, mesh.group_of_cell);
-  EXPECT_EQ(once.group_names, mesh.group_names);
+  EXPECT_EQ(once.groups, mesh.groups);
   EXPECT_TRUE(test::SameMesh(MakeQuadratic(once), once));
 }
 

@@ -82,8 +82,7 @@ TEST(ReadMesh, KeepsThePhysicalVolumesOfGmshAsGroups) {
   for (const MeshFile& file : test::AllGmshFiles(CubeMesh(1), {})) {
     SCOPED_TRACE(file.name);
     const TetMesh mesh = ReadBytes(file);
-    EXPECT_THAT(mesh.group_names, ElementsAre("soft body"));
-    EXPECT_EQ(mesh.group_of_cell, std::vector<int>(6, 0));
+    EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"soft body", {0, 1, 2, 3, 4, 5}}));
   }
 }
 
@@ -94,7 +93,7 @@ TEST(ReadMesh, NumbersGmshNodesByTheirTags) {
   const TetMesh mesh = ReadBytes({"sparse.msh", bytes});
   EXPECT_EQ(mesh.cells, Eigen::Vector4i(0, 1, 2, 3));
   EXPECT_EQ(mesh.nodes_m.col(3), Eigen::Vector3d(0, 0, 1));
-  EXPECT_THAT(mesh.group_names, IsEmpty());
+  EXPECT_THAT(mesh.groups, IsEmpty());
 }
 
 TEST(ReadMesh, KeepsNodesThatNoCellUses) {
@@ -204,7 +203,8 @@ TEST_F(GmshProgram, WritesTheSameMeshInEveryFormat) {
   for (const std::string order : {"1", "2"}) {
     const TetMesh reference = MeshedBy("-order " + order + " -format msh41", "reference.msh");
     EXPECT_EQ(reference.cells.rows(), order == "1" ? 4 : 10);
-    EXPECT_THAT(reference.group_names, ElementsAre("lower part", "upper"));
+    EXPECT_THAT(reference.groups, ElementsAre(Field(&CellGroup::name, "lower part"),
+                                              Field(&CellGroup::name, "upper")));
     EXPECT_NEAR(ReportMesh(reference).volume_m3, 9e-5, 1e-12);
     for (const std::string format :
          {"msh22", "msh22 -bin", "msh41 -bin", "msh41 -save_parametric", "vtk", "vtk -bin"}) {
@@ -215,7 +215,7 @@ TEST_F(GmshProgram, WritesTheSameMeshInEveryFormat) {
       ASSERT_EQ(mesh.NodeCount(), reference.NodeCount());
       EXPECT_LT((mesh.nodes_m - reference.nodes_m).cwiseAbs().maxCoeff(), 1e-15);
       if (format.starts_with("vtk")) continue;
-      EXPECT_EQ(mesh.group_of_cell, reference.group_of_cell);
+      EXPECT_EQ(mesh.groups, reference.groups);
     }
   }
 }

@@ -25,7 +25,7 @@ TEST(ExtractBoundary, ClosesABoxOfKnownAreaAndVolume) {
 }
 
 TEST(ExtractBoundary, ASingleCellShowsAllItsFacesOutward) {
-  TetMesh cell{Eigen::Matrix3Xd::Zero(3, 4), Eigen::MatrixXi(4, 1), {}, {}};
+  TetMesh cell{Eigen::Matrix3Xd::Zero(3, 4), Eigen::MatrixXi(4, 1), {}};
   cell.nodes_m.rightCols<3>().setIdentity();
   cell.cells << 0, 1, 2, 3;
   for (const TetMesh& mesh : {cell, MakeQuadratic(cell)}) {
