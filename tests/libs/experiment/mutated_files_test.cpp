@@ -9,6 +9,7 @@
 #include "libs/experiment/cloud/pcd.hpp"
 #include "libs/experiment/cloud/ply.hpp"
 #include "tests/libs/experiment/c3d_writer.hpp"
+#include "tests/support/memory_limit.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -66,6 +67,7 @@ void ReadOne(const std::filesystem::path& file) {
 
 void ReadOrRefuse(int rounds, unsigned seed) {
   const test_support::TestFolder folder;
+  const test_support::MemoryLimit limit(test_support::kReaderLimit_bytes);
   test_support::Mutations mutations(seed);
   int refused = 0, read = 0;
   for (const ValidFile& file : ValidFiles(folder)) {

@@ -61,7 +61,6 @@ fem::TetMesh Beam_mm() {
   const auto node = [](int x, int y, int z) { return (z * (kWide + 1) + y) * (kLong + 1) + x; };
   fem::TetMesh mesh{Eigen::Matrix3Xd(3, (kLong + 1) * (kWide + 1) * (kWide + 1)),
                     Eigen::MatrixXi(4, 6 * kLong * kWide * kWide),
-                    {},
                     {}};
   for (int z = 0; z <= kWide; ++z) {
     for (int y = 0; y <= kWide; ++y) {

@@ -82,7 +82,7 @@ struct LaneBlock {
     Eigen::Matrix3Xd corners = Eigen::Matrix3Xd::Zero(3, 4);
     corners.rightCols<3>().setIdentity();
     corners = 0.01 * corners + Eigen::Matrix3Xd(RandomVector(12, 1e-3, engine).reshaped(3, 4));
-    TetMesh mesh{corners, Eigen::Vector4i(0, 1, 2, 3), {}, {}};
+    TetMesh mesh{corners, Eigen::Vector4i(0, 1, 2, 3), {}};
     if (element == ElementType::kTet4) return mesh.nodes_m;
     mesh = MakeQuadratic(mesh);
     const Eigen::Matrix3Xd rest = mesh.nodes_m(Eigen::all, mesh.cells.col(0));

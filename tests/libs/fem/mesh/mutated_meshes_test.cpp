@@ -8,6 +8,7 @@
 #include "libs/fem/mesh_report.hpp"
 #include "libs/fem/seams.hpp"
 #include "tests/libs/fem/mesh/mesh_files.hpp"
+#include "tests/support/memory_limit.hpp"
 #include "tests/support/mutations.hpp"
 
 namespace palpate::fem {
@@ -23,6 +24,7 @@ const std::string kMeditFile =
 /// Whatever is read can be reported on.
 void ReadOrRefuse(int rounds, unsigned seed) {
   const test_support::TestFolder folder;
+  const test_support::MemoryLimit limit(test_support::kReaderLimit_bytes);
   test_support::Mutations mutations(seed);
   const TetMesh cube = test::CubeMesh(1);
   std::vector<test::MeshFile> files = test::AllFiles(cube, test::CubeSurface(cube));

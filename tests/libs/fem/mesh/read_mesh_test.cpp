@@ -203,8 +203,8 @@ TEST_F(GmshProgram, WritesTheSameMeshInEveryFormat) {
   for (const std::string order : {"1", "2"}) {
     const TetMesh reference = MeshedBy("-order " + order + " -format msh41", "reference.msh");
     EXPECT_EQ(reference.cells.rows(), order == "1" ? 4 : 10);
-    EXPECT_THAT(reference.groups, ElementsAre(Field(&CellGroup::name, "lower part"),
-                                              Field(&CellGroup::name, "upper")));
+    EXPECT_THAT(reference.groups, ElementsAre(testing::Field(&CellGroup::name, "lower part"),
+                                              testing::Field(&CellGroup::name, "upper")));
     EXPECT_NEAR(ReportMesh(reference).volume_m3, 9e-5, 1e-12);
     for (const std::string format :
          {"msh22", "msh22 -bin", "msh41 -bin", "msh41 -save_parametric", "vtk", "vtk -bin"}) {

@@ -13,7 +13,7 @@ namespace palpate::fem {
 inline TetMesh BoxMesh(const Eigen::Vector3d& size_m, const Eigen::Vector3i& counts) {
   const Eigen::Vector3i nodes = counts.array() + 1;
   const auto node = [&](int x, int y, int z) { return (z * nodes.y() + y) * nodes.x() + x; };
-  TetMesh mesh{Eigen::Matrix3Xd(3, nodes.prod()), Eigen::MatrixXi(4, 6 * counts.prod()), {}, {}};
+  TetMesh mesh{Eigen::Matrix3Xd(3, nodes.prod()), Eigen::MatrixXi(4, 6 * counts.prod()), {}};
   for (int z = 0; z <= counts.z(); ++z) {
     for (int y = 0; y <= counts.y(); ++y) {
       for (int x = 0; x <= counts.x(); ++x) {
