@@ -122,6 +122,23 @@ std::optional<FileKind> Other(std::string_view head, const std::string& ending) 
   return std::nullopt;
 }
 
+/// The first line of a table; of UTF-16 the letters that ASCII has.
+std::string FirstLine(std::string_view head) {
+  std::string line(head.substr(0, head.find('\n')));
+  std::erase(line, '\0');
+  return line;
+}
+
+/// A table that is no motion capture; no kind where the first line has one column.
+FileKind OtherTable(const std::string& first_line) {
+  if (first_line.find_first_of(",;\t") == std::string::npos) return {};
+  return {.family = Family::kOther,
+          .name = "table",
+          .advice =
+              "no verb takes it alone: actuation.csv and loads.csv belong in a recording, and "
+              "palpate import takes columns t_s, marker, x_m, y_m, z_m"};
+}
+
 /// An ending decides only between kinds that are text, or where the bytes say nothing.
 bool EndsAsSettings(const std::string& ending) {
   return ending == ".yaml" || ending == ".yml" || ending.empty();
@@ -141,7 +158,11 @@ FileKind KindOf(const std::filesystem::path& file) {
             .name = ToString(mesh) + " mesh",
             .advice = "name it in a robot file: mesh: {file: ..., unit: mm}"};
   }
-  if (const CaptureKind capture = experiment::KindOfCapture(file); capture != CaptureKind::kNone) {
+  const CaptureKind capture = experiment::KindOfCapture(file);
+  const std::string first_line = FirstLine(head);
+  const bool names_markers = first_line.find("marker") != std::string::npos;
+  if (capture == CaptureKind::kTable && !names_markers) return OtherTable(first_line);
+  if (capture != CaptureKind::kNone) {
     return {.family = Family::kCapture,
             .capture = capture,
             .name = ToString(capture),

@@ -24,8 +24,9 @@ bool IsOtherUnit(double ratio) {
 
 std::string OtherUnitText(double ratio) {
   const bool near = ratio < 1.0;
+  const double times = near ? 1.0 / ratio : ratio;
   std::array<char, 32> factor{};
-  std::snprintf(factor.data(), factor.size(), "%.3g", near ? 1.0 / ratio : ratio);
+  std::snprintf(factor.data(), factor.size(), times < 100.0 ? "%.2g" : "%.0f", times);
   return "its depths are " + std::string(factor.data()) + " times too " + (near ? "near" : "far") +
          " (median of the robot's pixels): is unit_m of camera.yaml " + factor.data() +
          " times too " + (near ? "small" : "large") +

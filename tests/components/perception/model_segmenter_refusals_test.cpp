@@ -3,6 +3,7 @@
 
 // What is wrong with a frame, a prediction or settings is said, and the next good frame is taken.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,6 +60,23 @@ TEST_F(ModelSegmenterRefuses, DepthWithoutAnyValue) {
   ExpectRefusal(frame, predicted, StatusCode::kNoRobotSeen);
   std::fill(frame.depth.values.begin(), frame.depth.values.end(), std::uint16_t{65535});
   ExpectRefusal(frame, predicted, StatusCode::kNoRobotSeen);
+}
+
+TEST_F(ModelSegmenterRefuses, AUnitOfDepthThatIsWrongWithItsFactor) {
+  for (const bool too_near : {true, false}) {
+    rgbd::RgbdFrame frame = scene.frame();
+    for (std::uint16_t& value : frame.depth.values) {
+      const int scaled = too_near ? (value + 5) / 10 : 10 * value;
+      value = static_cast<std::uint16_t>(scaled > 65535 ? 0 : scaled);
+    }
+    const Status& status = segmenter.Segment(frame, &predicted).status;
+    EXPECT_EQ(status.code(), StatusCode::kNoRobotSeen);
+    EXPECT_THAT(status.message(),
+                testing::ContainsRegex(too_near ? "(9\\.[5-9]|10).* times too near"
+                                                : "(9\\.[5-9]|10).* times too far"));
+    EXPECT_THAT(status.message(), testing::HasSubstr("unit_m of camera.yaml"));
+  }
+  EXPECT_TRUE(segmenter.Segment(scene.frame(), &predicted).status.ok()) << "good frames go on";
 }
 
 TEST_F(ModelSegmenterRefuses, ACameraThatIsTurnedAway) {

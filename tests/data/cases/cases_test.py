@@ -34,6 +34,7 @@ OTHERS = {
     "run.mat": (b"MATLAB 5.0 MAT-file", "MATLAB file", "table"),
     "run.xlsx": (b"PK\x03\x04\x14\0", "ZIP archive", "CSV"),
     "run.mp4": (b"\0\0\0\x18ftypmp42", "video", "MCAP"),
+    "actuation.csv": (b"t_s,north,south\n0,0,0\n", "table", "actuation.csv and loads.csv belong"),
     "run.json": (b'{"a": 1}\n', "JSON file", "no verb"),
     "paper.pdf": (b"%PDF-1.7\n", "PDF document", "no verb"),
     "image.png": (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "PNG image", "depth/ or color/"),
