@@ -109,6 +109,7 @@ std::string ToText(const Totals& totals) {
     line(heading, fmt::format("{} ({})", name, BagSize(bytes)));
     heading = "";
   }
+  line("Use:", "palpate play publishes it; estimate, calibrate, diagnose and export take --data");
   for (const std::string& problem : totals.problems) text += "warning: " + problem + "\n";
   return text;
 }

@@ -60,7 +60,8 @@ def lines(rows):
 def gmsh2(version, binary=False):
     """Left half in two physical groups that overlap, written once for each: all 1, left 2."""
     nodes, cells, left = bar()
-    elements = [(1, cell) for cell in cells] + [(2, c) for c, is_left in zip(cells, left) if is_left]
+    elements = [(1, cell) for cell in cells]
+    elements += [(2, cell) for cell, is_left in zip(cells, left) if is_left]
     head = f"$MeshFormat\n{version} {int(binary)} 8\n"
     names = '$PhysicalNames\n2\n3 1 "all"\n3 2 "left"\n$EndPhysicalNames\n'
     if not binary:
@@ -73,7 +74,8 @@ def gmsh2(version, binary=False):
     data = (head.encode() + struct.pack(">i", 1) + b"\n$EndMeshFormat\n" + names.encode() +
             f"$Nodes\n{len(nodes)}\n".encode())
     data += b"".join(struct.pack(">i3d", n, *x) for n, x in enumerate(nodes, 1))
-    data += f"\n$EndNodes\n$Elements\n{len(elements)}\n".encode() + struct.pack(">3i", 4, len(elements), 2)
+    data += f"\n$EndNodes\n$Elements\n{len(elements)}\n".encode()
+    data += struct.pack(">3i", 4, len(elements), 2)
     data += b"".join(struct.pack(">7i", e, group, 1, *(n + 1 for n in cell))
                      for e, (group, cell) in enumerate(elements, 1))
     return data + b"\n$EndElements\n"
@@ -83,8 +85,9 @@ def gmsh4(version):
     nodes, cells, left = bar()
     parts = [[c for c, l in zip(cells, left) if l], [c for c, l in zip(cells, left) if not l]]
     box = "0 0 0 1 1 1"
-    text = (f'$MeshFormat\n{version} 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 "all"\n3 2 "left"\n'
-            f"$EndPhysicalNames\n$Entities\n0 0 0 2\n1 {box} 2 1 2 0\n2 {box} 1 1 0\n$EndEntities\n")
+    text = (f"$MeshFormat\n{version} 0 8\n$EndMeshFormat\n"
+            '$PhysicalNames\n2\n3 1 "all"\n3 2 "left"\n$EndPhysicalNames\n'
+            f"$Entities\n0 0 0 2\n1 {box} 2 1 2 0\n2 {box} 1 1 0\n$EndEntities\n")
     limits = f" 1 {len(nodes)}" if version == "4.1" else ""
     order = "3 1" if version == "4.1" else "1 3"
     text += f"$Nodes\n1 {len(nodes)}{limits}\n{order} 0 {len(nodes)}\n"
@@ -383,7 +386,8 @@ def ply(form="ascii", scale=1.0, negate=False, extra=False):
 
 
 def pcd(data="ascii", kind="F"):
-    head = ("# .PCD v.7 - Point Cloud Data file format\nVERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\n"
+    head = ("# .PCD v.7 - Point Cloud Data file format\nVERSION .7\n"
+            "FIELDS x y z rgb\nSIZE 4 4 4 4\n"
             f"TYPE F F F {kind}\nCOUNT 1 1 1 1\nWIDTH {COLUMNS}\nHEIGHT {ROWS}\n"
             f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {COLUMNS * ROWS}\nDATA {data}\n").encode()
     columns = [[], [], [], []]

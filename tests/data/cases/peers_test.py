@@ -40,8 +40,8 @@ def module(name):
 
 
 def near(a, b, tolerance):
-    return len(a) == len(b) and all(
-        math.isclose(x, y, rel_tol=0, abs_tol=tolerance) for p, q in zip(a, b) for x, y in zip(p, q))
+    return len(a) == len(b) and all(math.isclose(x, y, rel_tol=0, abs_tol=tolerance)
+                                    for p, q in zip(a, b) for x, y in zip(p, q))
 
 
 class Peers(unittest.TestCase):

@@ -28,8 +28,10 @@ class Body:
     """Bricks of the unit cube, moved by `place`; held by `held(share) -> directions`; on the end
     x = 1 a uniform shear traction whose sum is `force_N` in `direction`; watched at `probe`."""
 
-    def __init__(self, bricks, grading, place, modulus_Pa, held, force_N, direction, probe):
+    def __init__(self, bricks, grading, place, volume_m3, modulus_Pa, held, force_N, direction,
+                 probe):
         self.bricks, self.grading, self.place = bricks, grading, place
+        self.volume_m3 = volume_m3
         self.modulus_Pa, self.held = modulus_Pa, held
         self.force_N, self.direction, self.probe = force_N, direction, probe
 
@@ -50,8 +52,8 @@ def cantilever(length_over_height, refine):
         return "xyz" if share[0] == 0 else "y" if share[1] == 0 else ""
 
     bricks = (16 * refine, 4 * refine, 8 * refine)
-    return Body(bricks, 2.0, lambda s: (length * s[0], height / 2 * s[1], height * s[2]), modulus,
-                held, -force / 2, 3, (1, 0, 0.5))
+    return Body(bricks, 2.0, lambda s: (length * s[0], height / 2 * s[1], height * s[2]),
+                length * height**2 / 2, modulus, held, -force / 2, 3, (1, 0, 0.5))
 
 
 def cook(refine):
@@ -62,8 +64,8 @@ def cook(refine):
 
     bricks = (24 * refine, 24 * refine, 1)
     return Body(bricks, 1.5,
-                lambda s: (48 * s[0], 44 * (s[0] + s[1]) - 28 * s[0] * s[1], s[2]), 1.0,
-                held, 1.0, 2, (1, 0.5, 0))
+                lambda s: (48 * s[0], 44 * (s[0] + s[1]) - 28 * s[0] * s[1], s[2]),
+                48 * (44 + 16) / 2, 1.0, held, 1.0, 2, (1, 0.5, 0))
 
 
 def brick_nodes(origin):
@@ -105,9 +107,22 @@ def write_deck(body, ratio, file):
     lines += [f"{number[index]},{body.direction},{force:.12e}"
               for index, force in end_loads(body, cells).items()]
     probe = tuple(round(2 * body.bricks[a] * body.probe[a]) for a in range(3))
-    lines += ["*NSET, NSET=PROBE", str(number[probe]),
-              "*NODE PRINT, NSET=PROBE", "U", "*END STEP"]
+    lines += ["*NSET, NSET=PROBE", str(number[probe]), "*NSET, NSET=CLAMP"]
+    lines += [str(n) for index, n in number.items() if body.share(index)[0] == 0]
+    lines += ["*NODE PRINT, NSET=PROBE", "U", "*NODE PRINT, NSET=CLAMP, TOTALS=ONLY", "RF",
+              "*EL PRINT, ELSET=BODY, TOTALS=ONLY", "EVOL", "*END STEP"]
     file.write_text("\n".join(lines) + "\n")
+
+
+def check_read_back(body, text):
+    """ccx drops what goes beyond 20 characters of a number without a word: the volume and the force
+    at the clamp show what it read."""
+    force = re.search(r"total force[^\n]*CLAMP[^\n]*\n\s*(\S+)\s+(\S+)\s+(\S+)", text)
+    volume = re.search(r"total volume[^\n]*\n\s*(\S+)", text)
+    for name, read, written in (("force", -float(force[body.direction]), body.force_N),
+                                ("volume", float(volume[1]), body.volume_m3)):
+        if abs(read - written) > 1e-5 * abs(written):
+            raise SystemExit(f"ccx has read another {name}: {read} instead of {written}")
 
 
 def deflection_m(body, ratio):
@@ -115,6 +130,7 @@ def deflection_m(body, ratio):
         write_deck(body, ratio, pathlib.Path(folder) / "job.inp")
         subprocess.run(["ccx", "-i", "job"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
         text = (pathlib.Path(folder) / "job.dat").read_text()
+    check_read_back(body, text)
     row = re.findall(r"^\s*\d+\s+(\S+)\s+(\S+)\s+(\S+)\s*$", text, re.MULTILINE)[-1]
     return float(row[body.direction - 1])
 
