@@ -6,7 +6,7 @@
 Ours are asked through files that palpate writes again: `palpate solve --vtu` without load for
 meshes. Each reader that is not installed skips its test with the reason.
 
-usage: peers_test.py PROGRAM FOLDER
+usage: peers_test.py PROGRAM
 """
 
 import json
@@ -53,7 +53,7 @@ class Peers(unittest.TestCase):
         cases.write_all(self.folder)
 
     def ours(self, name):
-        """Nodes in m and the sets of nodes of the cells, as palpate reads the mesh."""
+        """Nodes in m, as palpate reads the mesh."""
         robot = self.folder / "robot.yaml"
         robot.write_text(ROBOT.format(file=self.folder / name), encoding="utf-8")
         out = self.folder / "out"
@@ -62,8 +62,7 @@ class Peers(unittest.TestCase):
                                 capture_output=True, text=True, check=False, timeout=60)
         self.assertEqual(result.returncode, 0, f"{name}: {result.stderr}")
         rows = (out / "nodes_0000.csv").read_text(encoding="utf-8").splitlines()[1:]
-        nodes = [tuple(map(float, row.split(",")[1:4])) for row in rows]
-        return nodes
+        return [tuple(map(float, row.split(",")[1:4])) for row in rows]
 
     def check_nodes(self, name, theirs_mm):
         ours = self.ours(name)
