@@ -70,6 +70,16 @@ std::string CommandOf(const DiagnoseOptions& options) {
   return command;
 }
 
+/// Messages have no experiment folder that the view could show.
+std::vector<std::string> ViewCommandsOf(const DiagnoseOptions& options,
+                                        const diagnosis::DiagnosisResult& result) {
+  if (!fs::exists(options.data / "experiment.yaml")) return {};
+  const std::string view = "palpate view " + options.data.string();
+  std::vector<std::string> commands = {view + " --robot " + options.robot.string()};
+  if (!result.causes.empty()) commands.push_back(view + " --results " + options.out.string());
+  return commands;
+}
+
 void CheckCause(const std::string& option, const std::string& id,
                 const std::vector<std::string>& known) {
   if (IndexOf(id, known)) return;
@@ -267,6 +277,7 @@ int Diagnose(const DiagnoseOptions& options) {
   result.reason = data.Named(result.reason);
   result.version = app::Version();
   result.command = CommandOf(options);
+  result.view_commands = ViewCommandsOf(options, result);
   result.duration_s = SecondsSince(begin);
   Write(options.out, &diagnosis);
   fmt::print("{}\n", VerdictParagraph(result));

@@ -85,6 +85,20 @@ struct ResidualConfig {
   }
 };
 
+/// The smallest force that could be felt, of a click on the skin.
+struct ProbeConfig {
+  double radius_m = 0.006;
+  double significance = 1e-5;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    v("radius_m", radius_m, {.min = 0.0, .max = 1.0},
+      "Radius of the patch over which the force is spread; 0: one point");
+    v("significance", significance, {.min = 0.0, .max = 0.5, .min_open = true},
+      "False-alarm probability per frame at which a force counts as felt");
+  }
+};
+
 /// Settings of the process.
 struct Config {
   std::filesystem::path robot;
@@ -94,11 +108,13 @@ struct Config {
   FoxgloveConfig foxglove;
   ImageConfig images;
   ResidualConfig residual;
+  ProbeConfig probe;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("robot", robot,
-      "Robot file, or name of a robot, whose cables are drawn; empty: they are not. Same as ROBOT");
+      "Robot file, or name of a robot: for cables, stiffness and smallest forces; empty: they are "
+      "not shown. Same as ROBOT");
     v("allow_control", allow_control, "Let the page start and stop recordings");
     v("record_folder", record_folder,
       "Folder of recordings that the page starts; empty: the current one");
@@ -106,6 +122,7 @@ struct Config {
     v("foxglove", foxglove, "The protocol of Foxglove");
     v("images", images, "Camera images");
     v("residual", residual, "Residual of the surface");
+    v("probe", probe, "Clicks on the skin");
   }
 };
 

@@ -44,7 +44,9 @@ COMPONENT_LAYERS = {
         "frames": set(),
         "serve": set(),
         "foxglove": {"frames"},
-        "node": {"frames", "serve", "foxglove"},
+        "robot": {"frames"},
+        "experiment": {"robot"},
+        "node": {"frames", "serve", "foxglove", "robot", "experiment"},
     },
     "diagnosis": {
         "vocabulary": set(),

@@ -14,11 +14,15 @@ namespace palpate::view {
 
 struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
-  std::filesystem::path recording;
+  std::filesystem::path recording;  ///< recorded messages, or an experiment folder
+  std::filesystem::path results;    ///< of `palpate estimate` or `palpate diagnose`
 };
 
 /// Declares what `palpate-view` and `palpate view` have in common.
 void DeclareView(app::Arguments& arguments, Command* command);
+
+/// --results, which DeclareView declares, too.
+void DeclareResults(app::Arguments& arguments, Command* command);
 
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,12 +18,14 @@
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/rgbd/jpeg.hpp"
+#include "libs/rgbd/ros_compressed.hpp"
 #include "libs/rgbd/ros_formats.hpp"
 
 namespace palpate::view {
 
 namespace {
 
+using idl::sensor_msgs::CompressedImage;
 using idl::sensor_msgs::Image;
 
 /// Every so manieth pixel and row is sent.
@@ -74,6 +77,23 @@ std::uint16_t DepthAt(const std::uint8_t* pixel) {
   std::uint16_t depth = 0;
   std::memcpy(&depth, pixel, sizeof(depth));
   return depth;
+}
+
+std::string_view DataOf(const CompressedImage& message) {
+  return {reinterpret_cast<const char*>(message.data._buffer), message.data._length};
+}
+
+/// Depth in m is shown in steps of this, up to 6.5 m.
+constexpr double kUnitOfMetres_m = 1e-4;
+
+rgbd::DepthImage StepsOf(const rgbd::RosDepth& depth) {
+  rgbd::DepthImage steps(depth.width_px, depth.height_px);
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  std::transform(depth.range_m.begin(), depth.range_m.end(), steps.values.begin(), [](float z_m) {
+    const double step = std::round(double{z_m} / kUnitOfMetres_m);
+    return step > 0.0 && step <= kMost ? static_cast<std::uint16_t>(step) : std::uint16_t{0};
+  });
+  return steps;
 }
 
 /// Depths between which nearly all pixels lie, in steps.
@@ -159,6 +179,30 @@ Status DepthImageMessage(const Image& message, double unit_m, const ImageConfig&
   *out = JpegMessage("depth_image", {{"near_m", span.near * unit_m}, {"far_m", span.far * unit_m}},
                      message, jpeg);
   return Status::Ok();
+}
+
+Status PackedColorMessage(const CompressedImage& message, const ImageConfig& config,
+                          OutMessage* out) {
+  rgbd::ColorImage image;
+  const std::string cause = rgbd::DecodeCompressedColor(DataOf(message), &image);
+  if (!cause.empty()) return dds::Invalid(cause);
+  dds::ImageMessage unpacked("rgb8", 3);
+  return ColorImageMessage(unpacked.Of(image, dds::StampNs(message.header.stamp), ""), config, out);
+}
+
+Status PackedDepthMessage(const CompressedImage& message, double unit_m, const ImageConfig& config,
+                          OutMessage* out) {
+  rgbd::RosDepth depth;
+  const std::string cause =
+      rgbd::DecodeCompressedDepth(dds::Text(message.format), DataOf(message), &depth);
+  if (!cause.empty()) return dds::Invalid(cause);
+  if (!depth.range_m.empty()) {
+    unit_m = kUnitOfMetres_m;
+    depth.steps = StepsOf(depth);
+  }
+  dds::ImageMessage unpacked("16UC1", sizeof(std::uint16_t));
+  return DepthImageMessage(unpacked.Of(depth.steps, dds::StampNs(message.header.stamp), ""), unit_m,
+                           config, out);
 }
 
 OutMessage SegmentationMessage(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,

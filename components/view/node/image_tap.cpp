@@ -7,17 +7,15 @@
 
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
-#include "libs/dds/decode_cdr.hpp"
 #include "libs/dds/ros_names.hpp"
 
 namespace palpate::view {
 
-ImageTap::ImageTap(const dds::Participant& participant,
-                   const dds::Topic<idl::sensor_msgs::Image>& topic, double max_rate_hz,
+ImageTap::ImageTap(const dds::Participant& participant, std::string_view topic, double max_rate_hz,
                    std::function<void()> on_image)
     : participant_(participant), limit_(max_rate_hz), on_image_(std::move(on_image)) {
-  const dds::TopicSettings& settings = participant.table().At(topic.name);
-  topic_ = {.dds_topic = dds::DdsTopicName(participant.ResolvedName(topic.name)),
+  const dds::TopicSettings& settings = participant.table().At(topic);
+  topic_ = {.dds_topic = dds::DdsTopicName(participant.ResolvedName(topic)),
             .dds_type = dds::DdsTypeName(settings.type),
             .reliability = dds::Reliability::kBestEffort,
             .durability = dds::Durability::kVolatile,
@@ -33,7 +31,7 @@ void ImageTap::Keep(dds::RawMessage message) {
   on_image_();
 }
 
-std::optional<dds::Message<idl::sensor_msgs::Image>> ImageTap::Take(bool wanted) {
+std::optional<dds::RawMessage> ImageTap::TakeRaw(bool wanted) {
   if (!wanted) {
     reader_.reset();
     kept_.reset();
@@ -54,9 +52,7 @@ std::optional<dds::Message<idl::sensor_msgs::Image>> ImageTap::Take(bool wanted)
     const std::lock_guard lock(mutex_);
     raw.swap(kept_);
   }
-  dds::Message<idl::sensor_msgs::Image> image;
-  if (!raw || !dds::DecodeCdr(raw->cdr(), &image).ok()) return std::nullopt;
-  return image;
+  return raw;
 }
 
 }  // namespace palpate::view

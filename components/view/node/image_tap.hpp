@@ -7,8 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 #include "components/view/node/rate_limit.hpp"
+#include "libs/dds/decode_cdr.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/raw_reader.hpp"
@@ -20,13 +22,20 @@ namespace palpate::view {
 class ImageTap {
  public:
   /// `on_image` is called from DDS's threads. `participant` must outlive this.
-  ImageTap(const dds::Participant& participant, const dds::Topic<idl::sensor_msgs::Image>& topic,
-           double max_rate_hz, std::function<void()> on_image);
+  ImageTap(const dds::Participant& participant, std::string_view topic, double max_rate_hz,
+           std::function<void()> on_image);
 
-  /// Begins or ends to read, and returns what has come since; nullopt: nothing, or no image.
-  std::optional<dds::Message<idl::sensor_msgs::Image>> Take(bool wanted);
+  /// Begins or ends to read, and returns what has come since; nullopt: nothing, or no T.
+  template <typename T>
+  std::optional<dds::Message<T>> Take(bool wanted) {
+    const std::optional<dds::RawMessage> raw = TakeRaw(wanted);
+    dds::Message<T> image;
+    if (!raw || !dds::DecodeCdr(raw->cdr(), &image).ok()) return std::nullopt;
+    return image;
+  }
 
  private:
+  std::optional<dds::RawMessage> TakeRaw(bool wanted);
   void Keep(dds::RawMessage message);
 
   const dds::Participant& participant_;

@@ -3,6 +3,8 @@
 
 #include "components/view/node/live_source.hpp"
 
+#include "libs/dds/driver_topics.hpp"
+
 namespace palpate::view {
 
 LiveSource::LiveSource(const Config& config, dds::Participant& participant, dds::WaitSet& loop,
@@ -18,6 +20,7 @@ LiveSource::LiveSource(const Config& config, dds::Participant& participant, dds:
       calibrations_(participant.CreateReader(dds::kCalibrationTopic)),
       calibration_statuses_(participant.CreateReader(dds::kCalibrationStatusTopic)),
       setups_(participant.CreateReader(dds::kCameraSetupTopic)),
+      markers_(participant.CreateReader(dds::kMarkersTopic)),
       statuses_(participant.CreateReader(dds::kComponentStatusTopic)),
       diagnostics_(participant.CreateReader(dds::kDiagnosticsTopic)),
       cables_(participant.CreateReader(dds::kJointStatesTopic)),
@@ -28,10 +31,14 @@ LiveSource::LiveSource(const Config& config, dds::Participant& participant, dds:
       true_meshes_(participant.CreateReader(dds::kTrueMeshTopic)),
       true_mesh_states_(participant.CreateReader(dds::kTrueMeshStateTopic)),
       true_forces_(participant.CreateReader(dds::kTrueForcesTopic)),
-      color_images_(participant, dds::kColorImageTopic, config.images.max_rate_hz,
+      color_images_(participant, dds::kColorImageTopic.name, config.images.max_rate_hz,
                     [&loop] { loop.Wake(); }),
-      depth_images_(participant, dds::kDepthImageTopic, config.images.max_rate_hz,
-                    [&loop] { loop.Wake(); }) {
+      depth_images_(participant, dds::kDepthImageTopic.name, config.images.max_rate_hz,
+                    [&loop] { loop.Wake(); }),
+      packed_colors_(participant, dds::kPackedColorTopic.name, config.images.max_rate_hz,
+                     [&loop] { loop.Wake(); }),
+      packed_depths_(participant, dds::kPackedDepthTopic.name, config.images.max_rate_hz,
+                     [&loop] { loop.Wake(); }) {
   Attach(meshes_);
   Attach(mesh_states_);
   Attach(forces_);
@@ -41,6 +48,7 @@ LiveSource::LiveSource(const Config& config, dds::Participant& participant, dds:
   Attach(calibrations_);
   Attach(calibration_statuses_);
   Attach(setups_);
+  Attach(markers_);
   Attach(statuses_);
   Attach(diagnostics_);
   Attach(cables_);
@@ -66,12 +74,14 @@ void LiveSource::Attach(dds::Reader<T>& reader, void (PageFeed::*take)(const T&)
 }
 
 void LiveSource::TakeImages(bool wanted) {
-  const auto take = [&](ImageTap& tap, void (PageFeed::*feed)(const idl::sensor_msgs::Image&)) {
-    const auto image = tap.Take(wanted);
+  const auto take = [&]<typename T>(ImageTap& tap, void (PageFeed::*feed)(const T&)) {
+    const auto image = tap.Take<T>(wanted);
     if (image) (feed_->*feed)(**image);
   };
   take(color_images_, &PageFeed::TakeColorImage);
   take(depth_images_, &PageFeed::TakeDepthImage);
+  take(packed_colors_, &PageFeed::TakePackedColor);
+  take(packed_depths_, &PageFeed::TakePackedDepth);
 }
 
 }  // namespace palpate::view

@@ -38,6 +38,7 @@ class LiveSource {
   dds::Reader<idl::palpate_msgs::Calibration> calibrations_;
   dds::Reader<idl::palpate_msgs::CalibrationStatus> calibration_statuses_;
   dds::Reader<idl::palpate_msgs::CameraSetup> setups_;
+  dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;
   dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
   dds::Reader<idl::diagnostic_msgs::DiagnosticArray> diagnostics_;
   dds::Reader<idl::sensor_msgs::JointState> cables_;
@@ -50,6 +51,8 @@ class LiveSource {
   dds::Reader<idl::palpate_msgs::ForceArray> true_forces_;
   ImageTap color_images_;
   ImageTap depth_images_;
+  ImageTap packed_colors_;
+  ImageTap packed_depths_;
 };
 
 }  // namespace palpate::view

@@ -36,6 +36,17 @@ PortSettings PortOf(const HttpConfig& config, int port, AccessRules rules) {
   return settings;
 }
 
+PageGreeting GreetingOf(const NodeConfig& config, const ViewPlan& plan, bool is_experiment,
+                        int domain_id) {
+  const bool is_live = !is_experiment && plan.recording.empty();
+  return {.version = plan.version,
+          .source = is_live         ? "live"
+                    : is_experiment ? "experiment"
+                                    : "recording",
+          .source_name = is_live ? "domain " + std::to_string(domain_id) : plan.source_name,
+          .read_only = !config.allow_control};
+}
+
 }  // namespace
 
 ViewNode::ViewNode(const NodeConfig& config, ViewPlan plan, int domain_id, dds::TopicTable table,
@@ -45,25 +56,21 @@ ViewNode::ViewNode(const NodeConfig& config, ViewPlan plan, int domain_id, dds::
       loop_(participant_),
       log_(participant_, std::move(process_log)),
       health_(participant_, "view", WallClock::now()),
-      feed_(config, domain_id, Outputs()),
+      robot_(std::move(plan.robot)),
+      experiment_(std::move(plan.experiment)),
+      feed_(config, domain_id, robot_.get(), Outputs()),
       recorder_(plan.recorder) {
-  const bool recorded = !plan.recording.empty();
-  page_ = std::make_unique<PageHub>(
-      PageGreeting{
-          .version = plan.version,
-          .source = recorded ? "recording" : "live",
-          .source_name = recorded ? plan.recording_name : "domain " + std::to_string(domain_id),
-          .read_only = !config.allow_control},
-      &server_, [this](ClientId client, PageRequest request) {
-        Ask(PageWish{client, std::move(request)});
-      });
+  page_ = std::make_unique<PageHub>(GreetingOf(config, plan, experiment_ != nullptr, domain_id),
+                                    &server_, [this](ClientId client, PageRequest request) {
+                                      Ask(PageWish{client, std::move(request)});
+                                    });
   foxglove_ = std::make_unique<FoxgloveHub>("palpate", plan.version, &server_,
                                             [this](foxglove::ChannelId channel, bool wanted) {
                                               Ask(ChannelWish{channel, wanted});
                                             });
   Listen(plan);
   ChooseSource(plan);
-  if (plan.cable_paths) page_->Publish(*plan.cable_paths);
+  page_->SetSnapshot(monitor::SnapshotJson(feed_.TellHealth(dds::WallClockNs())));
   loop_.OnWake([this] { Serve(); });
   loop_.Every(kLookPeriod, [this] { Serve(); });
   loop_.Every(kReportPeriod, [this] { Report(); });
@@ -114,16 +121,25 @@ std::string ViewNode::page_url() const {
 }
 
 void ViewNode::ChooseSource(const ViewPlan& plan) {
-  if (plan.recording.empty()) {
+  if (experiment_) {
+    played_ = std::make_unique<ExperimentSource>(*experiment_, *robot_, &feed_);
+  } else if (!plan.recording.empty()) {
+    PlayRecording(plan);
+  } else {
     live_ = std::make_unique<LiveSource>(config_, participant_, loop_, &feed_);
-    if (config_.foxglove.enabled) {
-      foxglove_topics_ =
-          std::make_unique<FoxgloveTopics>(participant_, loop_, log_, foxglove_.get());
-    }
+    if (!config_.foxglove.enabled) return;
+    foxglove_topics_ = std::make_unique<FoxgloveTopics>(participant_, loop_, log_, foxglove_.get());
     return;
   }
-  recording_ = std::make_unique<RecordingSource>(plan.recording, &feed_);
-  loop_.Every(kPlayPeriod, [this] { recording_->Advance(MonotonicNow_ns()); });
+  loop_.Every(kPlayPeriod, [this] { played_->Advance(MonotonicNow_ns()); });
+}
+
+void ViewNode::PlayRecording(const ViewPlan& plan) {
+  auto recording = std::make_unique<RecordingSource>(plan.recording, &feed_);
+  if (config_.foxglove.enabled) {
+    foxglove_recording_ = std::make_unique<FoxgloveRecording>(recording.get(), foxglove_.get());
+  }
+  played_ = std::move(recording);
 }
 
 void ViewNode::Ask(Wish wish) {
@@ -143,9 +159,10 @@ void ViewNode::Serve() {
   for (const Wish& wish : wishes) {
     if (const auto* page = std::get_if<PageWish>(&wish)) {
       Answer(*page);
-    } else if (foxglove_topics_) {
+    } else {
       const auto& channel = std::get<ChannelWish>(wish);
-      foxglove_topics_->SetWanted(channel.channel, channel.wanted);
+      if (foxglove_topics_) foxglove_topics_->SetWanted(channel.channel, channel.wanted);
+      if (foxglove_recording_) foxglove_recording_->SetWanted(channel.channel, channel.wanted);
     }
   }
   if (live_) live_->TakeImages(page_->WantsImages());
@@ -155,23 +172,23 @@ void ViewNode::Answer(const PageWish& wish) {
   if (const auto* probe = std::get_if<ProbeRequest>(&wish.request)) {
     page_->Reply(wish.client, feed_.Probe(*probe));
   } else if (const auto* record = std::get_if<RecordRequest>(&wish.request)) {
-    const std::string reason = recording_ ? "a recording is shown" : recorder_.Set(record->on);
+    const std::string reason = played_ ? "no running system is shown" : recorder_.Set(record->on);
     if (!reason.empty()) page_->Refuse(wish.client, "record", reason);
     page_->Publish(recorder_.State());
-  } else if (!recording_) {
+  } else if (!played_) {
     const bool is_play = std::holds_alternative<PlayRequest>(wish.request);
     page_->Refuse(wish.client, is_play ? "play" : "seek", "a running system is shown");
   } else {
-    if (const auto* play = std::get_if<PlayRequest>(&wish.request)) recording_->Play(*play);
-    if (const auto* seek = std::get_if<SeekRequest>(&wish.request)) recording_->Seek(*seek);
-    page_->Publish(recording_->State());
+    if (const auto* play = std::get_if<PlayRequest>(&wish.request)) played_->Play(*play);
+    if (const auto* seek = std::get_if<SeekRequest>(&wish.request)) played_->Seek(*seek);
+    page_->Publish(played_->State());
   }
 }
 
 void ViewNode::Report() {
   page_->SetSnapshot(monitor::SnapshotJson(feed_.TellHealth(dds::WallClockNs())));
   page_->Publish(recorder_.State());
-  if (recording_) page_->Publish(recording_->State());
+  if (played_) page_->Publish(played_->State());
   dds::HealthCounts counts;
   counts.received = feed_.received();
   counts.published = published_;

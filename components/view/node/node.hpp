@@ -13,7 +13,9 @@
 #include <variant>
 #include <vector>
 
+#include "components/view/node/experiment_source.hpp"
 #include "components/view/node/foxglove_hub.hpp"
+#include "components/view/node/foxglove_recording.hpp"
 #include "components/view/node/foxglove_topics.hpp"
 #include "components/view/node/live_source.hpp"
 #include "components/view/node/node_config.hpp"
@@ -33,8 +35,9 @@ struct ViewPlan {
   std::string token;                             ///< that clients must give; empty: none
   std::string version;                           ///< of palpate
   std::vector<std::filesystem::path> recording;  ///< files to be shown instead of the domain
-  std::string recording_name;
-  std::optional<OutMessage> cable_paths;
+  std::string source_name;                       ///< of the recording or experiment
+  std::unique_ptr<KnownRobot> robot;             ///< null: not known
+  std::unique_ptr<ShownExperiment> experiment;   ///< shown instead of the domain; needs `robot`
   RecorderControl::Settings recorder;
 };
 
@@ -70,6 +73,7 @@ class ViewNode {
   FeedOutputs Outputs();
   void Listen(const ViewPlan& plan);
   void ChooseSource(const ViewPlan& plan);
+  void PlayRecording(const ViewPlan& plan);
   void Ask(Wish wish);
   void Serve();
   void Answer(const PageWish& wish);
@@ -87,10 +91,13 @@ class ViewNode {
   WebServer server_;  // goes before the hubs, which its thread uses
   int page_port_ = 0;
   int foxglove_port_ = 0;
+  std::unique_ptr<KnownRobot> robot_;
+  std::unique_ptr<ShownExperiment> experiment_;
   PageFeed feed_;
   RecorderControl recorder_;
   std::unique_ptr<LiveSource> live_;
-  std::unique_ptr<RecordingSource> recording_;
+  std::unique_ptr<PlayedSource> played_;
+  std::unique_ptr<FoxgloveRecording> foxglove_recording_;
   std::unique_ptr<FoxgloveTopics> foxglove_topics_;
   std::uint64_t published_ = 0;
 };

@@ -47,15 +47,20 @@ std::vector<foxglove::SceneForce> SceneForcesOf(const idl::palpate_msgs::ForceAr
 
 }  // namespace
 
-PageFeed::PageFeed(const Config& config, int domain_id, FeedOutputs outputs)
+PageFeed::PageFeed(const Config& config, int domain_id, KnownRobot* robot, FeedOutputs outputs)
     : config_(config),
+      domain_id_(domain_id),
+      robot_(robot),
       outputs_(std::move(outputs)),
       builder_(domain_id),
+      probe_(config.probe, robot),
       color_limit_(config.images.max_rate_hz),
       depth_limit_(config.images.max_rate_hz),
       residual_limit_(config.residual.rate_hz),
       scene_limit_(config.foxglove.scene_rate_hz),
       cables_limit_(kMostShown_hz),
+      paths_limit_(kMostShown_hz),
+      markers_limit_(kMostShown_hz),
       segmentation_limit_(config.images.max_rate_hz) {}
 
 double PageFeed::Count(const char* topic, std::optional<std::uint64_t> counter) {
@@ -70,22 +75,37 @@ void PageFeed::Warn(const char* topic, const Status& status) {
   outputs_.warn(std::string(topic) + " is not shown: " + status.message());
 }
 
-void PageFeed::TakeMesh(const char* topic, const idl::palpate_msgs::Mesh& message,
-                        ShownMesh* mesh) {
-  OutMessage out;
-  const Status taken = mesh->Take(message, &out);
-  if (!taken.ok()) return Warn(topic, taken);
-  outputs_.publish(std::move(out));
-}
-
 void PageFeed::Take(const idl::palpate_msgs::Mesh& message) {
   Count("/robot/mesh", std::nullopt);
-  TakeMesh("/robot/mesh", message, &mesh_);
+  const Status taken = mesh_.Take(message);
+  if (!taken.ok()) return Warn("/robot/mesh", taken);
+  TellMesh();
 }
 
 void PageFeed::TakeTruth(const idl::palpate_msgs::Mesh& message) {
   Count("/truth/mesh", std::nullopt);
-  TakeMesh("/truth/mesh", message, &truth_mesh_);
+  const Status taken = truth_mesh_.Take(message);
+  if (!taken.ok()) return Warn("/truth/mesh", taken);
+  outputs_.publish(truth_mesh_.MeshMessage({}));
+}
+
+void PageFeed::TellMesh() {
+  if (mesh_.surface().empty()) return;
+  outputs_.publish(mesh_.MeshMessage(robot_ == nullptr ? std::vector<float>()
+                                                       : robot_->Stiffness_Pa(mesh_.surface())));
+}
+
+/// Of a mesh that is the robot file's the cables are drawn along the body as it is now.
+void PageFeed::TellCables() {
+  if (robot_ == nullptr || robot_->model().CableCount() == 0) return;
+  const bool is_its_mesh = mesh_.surface().hash == robot_->body().mesh_hash &&
+                           mesh_.surface().node_count == robot_->NodeCount();
+  if (!is_its_mesh || !mesh_.usable() || !paths_limit_.Pass(MonotonicNow_ns())) return;
+  BinaryFrame frame("cable_paths", {{"robot", robot_->body().name}});
+  for (const auto& [name, path_m] : robot_->CablePaths(mesh_.nodes_m())) {
+    frame.Add(name, std::span(path_m.data(), static_cast<std::size_t>(path_m.size())));
+  }
+  outputs_.publish(BinaryMessage("cable_paths", frame.Bytes()));
 }
 
 void PageFeed::Take(const idl::palpate_msgs::MeshState& message) {
@@ -93,7 +113,10 @@ void PageFeed::Take(const idl::palpate_msgs::MeshState& message) {
   builder_.Add(message, now_s);
   const Status taken = mesh_.Take(message);
   if (!taken.ok()) return Warn("/robot/mesh_state", taken);
-  outputs_.publish(mesh_.StateMessage(Residual(MonotonicNow_ns())));
+  std::vector<float> residual_m = Residual(MonotonicNow_ns());
+  outputs_.publish(mesh_.StateMessage(residual_m));
+  if (!residual_m.empty()) probe_.TakeResidual(std::move(residual_m));
+  TellCables();
   TellScene();
 }
 
@@ -117,6 +140,7 @@ void PageFeed::TakeTruth(const idl::palpate_msgs::ForceArray& message) {
 
 void PageFeed::Take(const idl::palpate_msgs::ModelGap& message) {
   builder_.Add(message, Count("/model_gap", message.counter));
+  probe_.Take(message);
   outputs_.publish(ModelErrorMessage(message, judgement_));
 }
 
@@ -138,6 +162,7 @@ void PageFeed::Take(const idl::diagnostic_msgs::DiagnosticArray& message) {
 
 void PageFeed::Take(const idl::sensor_msgs::JointState& message) {
   builder_.Add(message, Count("/robot/joint_states", std::nullopt));
+  probe_.Take(message);
   if (cables_limit_.Pass(MonotonicNow_ns())) outputs_.publish(CablesMessage(message));
 }
 
@@ -154,8 +179,20 @@ void PageFeed::Take(const idl::palpate_msgs::Calibration& message) {
   if (message.has_camera && dds::FromPose(message.camera_in_robot, &T_robot_camera)) {
     T_robot_camera_ = T_robot_camera;
   }
+  TakeModuli(message);
   calibration_.Take(message);
   outputs_.publish(calibration_.Message());
+}
+
+void PageFeed::TakeModuli(const idl::palpate_msgs::Calibration& message) {
+  if (robot_ == nullptr || dds::Text(message.mesh_hash) != robot_->body().mesh_hash) return;
+  bool changed = false;
+  for (const auto& modulus : dds::Elements(message.moduli)) {
+    const double youngs_modulus_Pa = modulus.youngs_modulus_pa;
+    if (!std::isfinite(youngs_modulus_Pa) || youngs_modulus_Pa <= 0.0) continue;
+    changed |= robot_->SetYoungsModulus(std::string(dds::Text(modulus.part)), youngs_modulus_Pa);
+  }
+  if (changed) TellMesh();
 }
 
 void PageFeed::Take(const idl::palpate_msgs::CameraSetup& message) {
@@ -202,13 +239,42 @@ void PageFeed::TakeCloud(const char* topic, const char* kind,
     return Warn(topic, {StatusCode::kNoCalibration,
                         "no pose of '" + cloud->frame + "' on /tf_static or /calibration"});
   }
+  TellCloud(kind, *cloud, *T_robot_cloud);
+}
+
+void PageFeed::TellCloud(const char* kind, const Cloud& cloud,
+                         const Eigen::Isometry3d& T_robot_cloud) {
   const Eigen::Matrix3Xf points_m =
-      (T_robot_cloud->linear().cast<float>() * cloud->cloud.points_m).colwise() +
-      T_robot_cloud->translation().cast<float>();
-  BinaryFrame frame(kind, {{"stamp_ns", std::to_string(cloud->stamp_ns)}});
+      (T_robot_cloud.linear().cast<float>() * cloud.cloud.points_m).colwise() +
+      T_robot_cloud.translation().cast<float>();
+  BinaryFrame frame(kind, {{"stamp_ns", std::to_string(cloud.stamp_ns)}});
   frame.Add("points_m", std::span(points_m.data(), static_cast<std::size_t>(points_m.size())));
-  frame.Add("rgb", cloud->cloud.colors_rgb);
+  frame.Add("rgb", cloud.cloud.colors_rgb);
   outputs_.publish(BinaryMessage(kind, frame.Bytes()));
+}
+
+void PageFeed::TakePoints(const rgbd::SensedCloud& points, std::int64_t stamp_ns) {
+  Count("points", std::nullopt);
+  if (!outputs_.wants_clouds()) return;
+  robot_cloud_ = {points, std::string(geometry::kRobotFrame), stamp_ns};
+  TellCloud("robot_cloud", robot_cloud_, Eigen::Isometry3d::Identity());
+}
+
+void PageFeed::Take(const idl::palpate_msgs::MarkerArray3& message) {
+  Count("/perception/markers", message.counter);
+  if (!markers_limit_.Pass(MonotonicNow_ns())) return;
+  ShownMarkers markers;
+  const Status read = FromMarkerArray(message, &markers);
+  if (!read.ok()) return Warn("/perception/markers", read);
+  if (robot_ != nullptr && mesh_.usable() && mesh_.surface().node_count == robot_->NodeCount()) {
+    markers.model_m = ModelMarkers(*robot_, markers.names, mesh_.nodes_m());
+  }
+  TakeMarkers(std::move(markers));
+}
+
+void PageFeed::TakeMarkers(ShownMarkers markers) {
+  outputs_.publish(MarkersMessage(markers));
+  probe_.Take(std::move(markers));
 }
 
 void PageFeed::TakeRobotCloud(const idl::sensor_msgs::PointCloud2& message) {
@@ -251,6 +317,26 @@ void PageFeed::TakeDepthImage(const idl::sensor_msgs::Image& message) {
   outputs_.publish(std::move(out));
 }
 
+void PageFeed::TakePackedColor(const idl::sensor_msgs::CompressedImage& message) {
+  constexpr const char* kTopic = "/camera/color/image_raw/compressed";
+  Count(kTopic, std::nullopt);
+  if (!outputs_.wants_images() || !color_limit_.Pass(MonotonicNow_ns())) return;
+  OutMessage out;
+  const Status made = PackedColorMessage(message, config_.images, &out);
+  if (!made.ok()) return Warn(kTopic, made);
+  outputs_.publish(std::move(out));
+}
+
+void PageFeed::TakePackedDepth(const idl::sensor_msgs::CompressedImage& message) {
+  constexpr const char* kTopic = "/camera/depth/image_raw/compressedDepth";
+  Count(kTopic, std::nullopt);
+  if (!outputs_.wants_images() || !depth_limit_.Pass(MonotonicNow_ns())) return;
+  OutMessage out;
+  const Status made = PackedDepthMessage(message, depth_unit_m_, config_.images, &out);
+  if (!made.ok()) return Warn(kTopic, made);
+  outputs_.publish(std::move(out));
+}
+
 std::vector<float> PageFeed::Residual(std::int64_t now_ns) {
   // A cloud of another frame would show the motion in between.
   constexpr double kMostApart_s = 0.1;
@@ -282,28 +368,14 @@ monitor::SystemSnapshot PageFeed::TellHealth(std::int64_t time_ns) {
   return snapshot;
 }
 
-OutMessage PageFeed::Probe(const ProbeRequest& request) const {
-  const std::size_t at = 3 * std::size_t{request.vertex};
-  nlohmann::json fields = {
-      {"kind", "probe"},           {"vertex", request.vertex},    {"position_m", nullptr},
-      {"displacement_m", nullptr}, {"smallest_force_N", nullptr}, {"reason", ""}};
-  if (at + 2 >= mesh_.positions_m().size()) {
-    fields["reason"] = "there is no such node, or no state of the mesh yet";
-    return TextMessage("probe", JsonText(fields));
-  }
-  const Eigen::Map<const Eigen::Vector3f> position_m(mesh_.positions_m().data() + at);
-  const Eigen::Map<const Eigen::Vector3f> rest_m(mesh_.surface().rest_m.data() + at);
-  const Eigen::Vector3f displacement_m = position_m - rest_m;
-  fields["position_m"] = {position_m.x(), position_m.y(), position_m.z()};
-  fields["displacement_m"] = {displacement_m.x(), displacement_m.y(), displacement_m.z()};
-  fields["reason"] = "the smallest force that can be felt is not computed";
-  return TextMessage("probe", JsonText(fields));
-}
-
 void PageFeed::Forget() {
   robot_cloud_ = {};
   object_cloud_ = {};
   forces_.clear();
+  probe_.Forget();
+  // Processes whose uptime goes back have not restarted: another place of the recording is shown.
+  builder_ = monitor::SnapshotBuilder(domain_id_);
+  flows_.clear();
 }
 
 }  // namespace palpate::view

@@ -16,11 +16,14 @@
 #include "components/view/frames/page_request.hpp"
 #include "components/view/node/convert_texts.hpp"
 #include "components/view/node/rate_limit.hpp"
+#include "components/view/node/shown_markers.hpp"
 #include "components/view/node/shown_mesh.hpp"
+#include "components/view/node/skin_probe.hpp"
 #include "libs/dds/transforms.hpp"
 #include "libs/monitor/snapshot_builder.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
+#include "sensor_msgs/msg/CompressedImage.hpp"
 
 namespace palpate::view {
 
@@ -39,7 +42,8 @@ struct FeedOutputs {
 /// joins no domain. From one thread.
 class PageFeed {
  public:
-  PageFeed(const Config& config, int domain_id, FeedOutputs outputs);
+  /// `robot`: null where it is not known; else it must outlive this.
+  PageFeed(const Config& config, int domain_id, KnownRobot* robot, FeedOutputs outputs);
 
   void Take(const idl::palpate_msgs::Mesh& message);
   void Take(const idl::palpate_msgs::MeshState& message);
@@ -54,10 +58,16 @@ class PageFeed {
   void Take(const idl::diagnostic_msgs::DiagnosticArray& message);
   void Take(const idl::sensor_msgs::JointState& message);
   void Take(const idl::tf2_msgs::TFMessage& message);
+  void Take(const idl::palpate_msgs::MarkerArray3& message);
+  void TakeMarkers(ShownMarkers markers);
+  /// Points near the robot, in its frame.
+  void TakePoints(const rgbd::SensedCloud& points, std::int64_t stamp_ns);
   void TakeRobotCloud(const idl::sensor_msgs::PointCloud2& message);
   void TakeObjectCloud(const idl::sensor_msgs::PointCloud2& message);
   void TakeColorImage(const idl::sensor_msgs::Image& message);
   void TakeDepthImage(const idl::sensor_msgs::Image& message);
+  void TakePackedColor(const idl::sensor_msgs::CompressedImage& message);
+  void TakePackedDepth(const idl::sensor_msgs::CompressedImage& message);
   void TakeColorInfo(const idl::sensor_msgs::CameraInfo& message);
   void TakeTruth(const idl::palpate_msgs::Mesh& message);
   void TakeTruth(const idl::palpate_msgs::MeshState& message);
@@ -66,7 +76,10 @@ class PageFeed {
   /// Once a second: the health message; returns the snapshot.
   monitor::SystemSnapshot TellHealth(std::int64_t time_ns);
 
-  OutMessage Probe(const ProbeRequest& request) const;
+  OutMessage Probe(const ProbeRequest& request) { return probe_.Answer(request, mesh_); }
+
+  /// Counts and tells what cannot be shown.
+  void Warn(const char* topic, const Status& status);
 
   /// Forgets what was shown: another place of a recording comes.
   void Forget();
@@ -82,21 +95,26 @@ class PageFeed {
   };
 
   double Count(const char* topic, std::optional<std::uint64_t> counter);
-  void Warn(const char* topic, const Status& status);
+  void TakeModuli(const idl::palpate_msgs::Calibration& message);
+  void TellMesh();
+  void TellCables();
+  void TellCloud(const char* kind, const Cloud& cloud, const Eigen::Isometry3d& T_robot_cloud);
   void TakeCloud(const char* topic, const char* kind, const idl::sensor_msgs::PointCloud2& message,
                  Cloud* cloud);
   std::optional<Eigen::Isometry3d> RobotFrom(const std::string& frame) const;
   std::vector<float> Residual(std::int64_t now_ns);
   void TellScene();
   void TellSegmentation();
-  void TakeMesh(const char* topic, const idl::palpate_msgs::Mesh& message, ShownMesh* mesh);
 
   Config config_;
+  int domain_id_;
+  KnownRobot* robot_;
   FeedOutputs outputs_;
   monitor::SnapshotBuilder builder_;
   std::map<std::string, monitor::FlowCounter> flows_;  ///< by topic
   ShownMesh mesh_{"mesh"};
   ShownMesh truth_mesh_{"truth_mesh"};
+  SkinProbe probe_;
   std::vector<foxglove::SceneForce> forces_;
   dds::TransformTree transforms_;
   std::optional<Eigen::Isometry3d> T_robot_camera_;  ///< of /calibration
@@ -112,6 +130,8 @@ class PageFeed {
   RateLimit residual_limit_;
   RateLimit scene_limit_;
   RateLimit cables_limit_;
+  RateLimit paths_limit_;
+  RateLimit markers_limit_;
   RateLimit segmentation_limit_;
   std::uint64_t received_ = 0;
   std::uint64_t refused_ = 0;

@@ -9,6 +9,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/dds/decode_cdr.hpp"
+#include "libs/dds/driver_topics.hpp"
 
 namespace palpate::view {
 
@@ -34,6 +35,9 @@ RecordingSource::RecordingSource(const std::vector<std::filesystem::path>& files
   Know(dds::kDiagnosticsTopic, &PageFeed::Take);
   Know(dds::kJointStatesTopic, &PageFeed::Take);
   Know(dds::kTfStaticTopic, &PageFeed::Take);
+  Know(dds::kMarkersTopic, &PageFeed::Take);
+  Know(dds::kPackedColorTopic, &PageFeed::TakePackedColor);
+  Know(dds::kPackedDepthTopic, &PageFeed::TakePackedDepth);
   Know(dds::kColorCameraInfoTopic, &PageFeed::TakeColorInfo);
   Know(dds::kRobotCloudTopic, &PageFeed::TakeRobotCloud);
   Know(dds::kObjectCloudTopic, &PageFeed::TakeObjectCloud);
@@ -44,7 +48,7 @@ RecordingSource::RecordingSource(const std::vector<std::filesystem::path>& files
   Know(dds::kDepthImageTopic, &PageFeed::TakeDepthImage);
   const auto& channels = recorded_.contents().channels;
   const bool shows_any = std::any_of(channels.begin(), channels.end(),
-                                     [this](const auto& one) { return IsWanted(one.second); });
+                                     [this](const auto& one) { return IsShown(one.second); });
   if (!shows_any) {
     throw InputError(files.front().string() +
                      ": no topic that the page shows, such as /robot/mesh_state or /forces");
@@ -62,7 +66,20 @@ void RecordingSource::Know(const dds::Topic<T>& topic, void (PageFeed::*take)(co
   };
 }
 
+/// Messages of the other channels between the newest and now have been given.
+void RecordingSource::WantedHasGrown(std::uint16_t channel) {
+  const auto is_it = [channel](const recording::Channel& one) { return one.id == channel; };
+  for (const auto& stored : recorded_.NewestBefore(TimeAt(position_s_), is_it)) {
+    further_.take(stored.message, stored.data);
+  }
+  Open();
+}
+
 bool RecordingSource::IsWanted(const recording::Channel& channel) const {
+  return IsShown(channel) || (further_.wanted && further_.wanted(channel));
+}
+
+bool RecordingSource::IsShown(const recording::Channel& channel) const {
   return channel.message_encoding == "cdr" && takes_.contains(channel.topic);
 }
 
@@ -71,6 +88,7 @@ void RecordingSource::Give(const recording::Message& message, std::string_view d
   if (channel == recorded_.contents().channels.end()) return;
   const auto take = takes_.find(channel->second.topic);
   if (take != takes_.end() && !take->second(data).ok()) ++unread_;
+  if (further_.take) further_.take(message, data);
 }
 
 double RecordingSource::duration_s() const {
@@ -94,7 +112,13 @@ void RecordingSource::StartAt(double position_s) {
     return a.message.log_time_ns < b.message.log_time_ns;
   });
   for (const recording::StoredMessage& stored : before) Give(stored.message, stored.data);
-  stream_.emplace(recorded_.Messages({.start_time_ns = start_ns + 1, .wanted = wanted}));
+  Open();
+}
+
+/// At what comes after the present place.
+void RecordingSource::Open() {
+  const auto wanted = [this](const recording::Channel& channel) { return IsWanted(channel); };
+  stream_.emplace(recorded_.Messages({.start_time_ns = TimeAt(position_s_) + 1, .wanted = wanted}));
   next_ = stream_->Next();
 }
 

@@ -10,31 +10,39 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "components/view/frames/page_request.hpp"
 #include "components/view/node/page_feed.hpp"
+#include "components/view/node/played_source.hpp"
 #include "components/view/serve/out_message.hpp"
 #include "libs/recording/recorded_messages.hpp"
 
 namespace palpate::view {
 
-/// Plays recorded messages into the page, without sending them anywhere else. Time is an argument,
-/// ns of a clock that does not go back.
-class RecordingSource {
+/// Plays recorded messages into the page, without sending them to any domain.
+class RecordingSource : public PlayedSource {
  public:
   /// `files`: as MessageFilesOf() names them. Throws InputError where they cannot be read, or hold
   /// no topic that the page shows.
   RecordingSource(const std::vector<std::filesystem::path>& files, PageFeed* feed);
 
-  /// To be called often: feeds what is due.
-  void Advance(std::int64_t now_ns);
+  /// What else the messages go to, as their bytes.
+  struct Further {
+    std::function<bool(const recording::Channel&)> wanted;
+    std::function<void(const recording::Message&, std::string_view data)> take;
+  };
+  void PassOn(Further further) { further_ = std::move(further); }
+  /// `Further::wanted` now names this channel, too: its newest message is passed on, then those to
+  /// come.
+  void WantedHasGrown(std::uint16_t channel);
+  const recording::RecordedMessages& recorded() const { return recorded_; }
 
-  void Play(const PlayRequest& request);
-  /// Shows the newest messages before that place, then plays on.
-  void Seek(const SeekRequest& request);
-
-  OutMessage State() const;
+  void Advance(std::int64_t now_ns) override;
+  void Play(const PlayRequest& request) override;
+  void Seek(const SeekRequest& request) override;
+  OutMessage State() const override;
   double position_s() const { return position_s_; }
   double duration_s() const;
 
@@ -45,12 +53,15 @@ class RecordingSource {
   template <typename T>
   void Know(const dds::Topic<T>& topic, void (PageFeed::*take)(const T&));
   bool IsWanted(const recording::Channel& channel) const;
+  bool IsShown(const recording::Channel& channel) const;
   void Give(const recording::Message& message, std::string_view data);
   std::int64_t TimeAt(double position_s) const;
   void StartAt(double position_s);
+  void Open();
 
   PageFeed* feed_;
   std::map<std::string, Take> takes_;  ///< by topic
+  Further further_;
   recording::RecordedMessages recorded_;
   std::optional<recording::RecordedStream> stream_;
   const recording::Message* next_ = nullptr;

@@ -11,19 +11,25 @@
 
 namespace palpate::view {
 
-Status ShownMesh::Take(const idl::palpate_msgs::Mesh& message, OutMessage* out) {
+Status ShownMesh::Take(const idl::palpate_msgs::Mesh& message) {
   Eigen::Matrix3Xd nodes_m;
   Eigen::Matrix3Xi triangles;
   if (Status read = dds::FromMesh(message, &nodes_m, &triangles); !read.ok()) return read;
   surface_ = MakePageSurface(std::string(dds::Text(message.mesh_hash)), nodes_m, triangles);
   positions_m_.clear();
-  BinaryFrame frame(kind_, {{"robot", std::string(dds::Text(message.robot))},
-                            {"hash", surface_.hash},
-                            {"stamp_ns", std::to_string(dds::StampNs(message.header.stamp))}});
+  robot_ = dds::Text(message.robot);
+  mesh_stamp_ns_ = dds::StampNs(message.header.stamp);
+  return Status::Ok();
+}
+
+OutMessage ShownMesh::MeshMessage(const std::vector<float>& stiffness_Pa) const {
+  BinaryFrame frame(
+      kind_,
+      {{"robot", robot_}, {"hash", surface_.hash}, {"stamp_ns", std::to_string(mesh_stamp_ns_)}});
   frame.Add("rest_m", surface_.rest_m);
   frame.Add("triangles", surface_.triangles);
-  *out = BinaryMessage(kind_, frame.Bytes());
-  return Status::Ok();
+  if (!stiffness_Pa.empty()) frame.Add("stiffness_Pa", stiffness_Pa);
+  return BinaryMessage(kind_, frame.Bytes());
 }
 
 Status ShownMesh::Take(const idl::palpate_msgs::MeshState& message) {
@@ -32,10 +38,9 @@ Status ShownMesh::Take(const idl::palpate_msgs::MeshState& message) {
     return dds::Invalid("a state of mesh '" + std::string(dds::Text(message.mesh_hash)) +
                         "' instead of '" + surface_.hash + "'");
   }
-  Eigen::Matrix3Xf nodes_m;
-  Status read = dds::FromMeshState(message, surface_.node_count, &nodes_m);
+  Status read = dds::FromMeshState(message, surface_.node_count, &nodes_m_);
   if (!read.ok()) return read;
-  positions_m_ = PositionsOf(surface_, nodes_m);
+  positions_m_ = PositionsOf(surface_, nodes_m_);
   stamp_ns_ = dds::StampNs(message.header.stamp);
   counter_ = message.counter;
   status_ = dds::Text(message.status);

@@ -30,12 +30,6 @@ void CheckSource(const std::filesystem::path& source) {
                      " is not there; without SOURCE the running "
                      "system is shown");
   }
-  if (std::filesystem::exists(source / "experiment.yaml")) {
-    throw InputError("SOURCE: " + source.string() +
-                     " is an experiment folder, which holds no messages; `palpate demo --robot "
-                     "ROBOT --data " +
-                     source.string() + "` estimates and shows it");
-  }
 }
 
 int Show(view::Command* command) {
@@ -54,14 +48,16 @@ int Show(view::Command* command) {
 }  // namespace
 
 app::Verb ViewVerb() {
-  return {"view", "Show the running system, or a recording, in the browser",
+  return {"view", "Show the running system, a recording or an experiment in the browser",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto command = std::make_shared<view::Command>();
             arguments.Positional("SOURCE", &command->recording,
-                                 "Recorded messages (.mcap, .db3, or a folder of them); without it "
-                                 "the running system",
+                                 "Recorded messages (.mcap, .db3, or a folder of them), or an "
+                                 "experiment folder; without it the running system",
                                  app::Need::kOptional);
-            app::DeclareRobotOption(arguments, &command->robot, "whose cables are drawn");
+            view::DeclareResults(arguments, command.get());
+            app::DeclareRobotOption(arguments, &command->robot,
+                                    "for cables, stiffness and smallest forces");
             app::DeclareNodeOptions(arguments, &command->options);
             return [command]() -> int {
               if (!app::SettleNodeOptions(app::ListSettings(command->config), &command->options)) {

@@ -84,10 +84,15 @@ feed.on('hello', ({ source, source_name, version, read_only }) => {
   byId('source').dataset.source = source;
   byId('source').title =
     `palpate ${version}, ${source_name}${read_only ? ', this page may only read' : ''}`;
+  const live = source === 'live';
   if (view) {
-    setText(byId('scene-empty-text'), 'Waiting for the robot, from palpate-force-estimation.');
+    setText(byId('scene-empty-text'), live
+      ? 'Waiting for the robot, from palpate-force-estimation.'
+      : `This ${source} has no robot here.`);
   }
-  verdict.say('Waiting for forces', 'calm');
+  setText(byId('camera-empty'), live ? 'Waiting for images of the camera.'
+    : `This ${source} has no images here.`);
+  verdict.say(source === 'experiment' ? 'No markers here' : 'Waiting for forces', 'calm');
 });
 feed.on('mesh', ({ robot }) => {
   setText(byId('robot'), robot.replaceAll('_', ' '));

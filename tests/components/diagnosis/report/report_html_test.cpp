@@ -194,9 +194,13 @@ TEST(ReportHtml, ShowsTheTenBestExperiments) {
   EXPECT_THAT(html, Not(HasSubstr("experiment &lt;11&gt;")));
 }
 
-TEST(ReportHtml, TellsHowToRepeat) {
-  const DiagnosisResult result = FrictionExample();
+TEST(ReportHtml, TellsHowToRepeatAndToSeeItMove) {
+  DiagnosisResult result = FrictionExample();
+  EXPECT_THAT(FormatReport(result), Not(HasSubstr("palpate view")));
+  result.view_commands = {"palpate view exp --robot rod", "palpate view exp --results <out>"};
   const std::string html = FormatReport(result);
+  EXPECT_THAT(html, HasSubstr("<pre>palpate view exp --robot rod</pre>"));
+  EXPECT_THAT(html, HasSubstr("<pre>palpate view exp --results &lt;out&gt;</pre>"));
   for (const std::string& text : {result.command, result.data_hash, result.version, result.robot,
                                   result.rivals[0].why_not, result.identities[1]}) {
     EXPECT_THAT(html, HasSubstr(text));

@@ -18,6 +18,7 @@
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 #include "tests/components/view/client/web_client.hpp"
+#include "tests/components/view/node/running_view.hpp"
 #include "tests/libs/dds/test_participant.hpp"
 
 namespace palpate::view {
@@ -29,35 +30,6 @@ using dds::TestNode;
 using testing::HasSubstr;
 using testing::StartsWith;
 using Json = nlohmann::json;
-
-/// The node in a thread of its own.
-class RunningView {
- public:
-  explicit RunningView(NodeConfig config = {}, ViewPlan plan = {})
-      : node_(std::make_unique<ViewNode>(WithFreePorts(config), std::move(plan),
-                                         static_cast<int>(TestDomain()), dds::BuiltInTable(),
-                                         dds::NodeLog::ProcessLog())),
-        thread_([this] { node_->Run(); }) {}
-  ~RunningView() {
-    node_->Stop();
-    thread_.join();
-  }
-  RunningView(const RunningView&) = delete;
-  RunningView& operator=(const RunningView&) = delete;
-
-  int page_port() const { return node_->page_port(); }
-  int foxglove_port() const { return node_->foxglove_port(); }
-
- private:
-  static NodeConfig WithFreePorts(NodeConfig config) {
-    if (config.http.port == HttpConfig().port) config.http.port = 0;
-    config.foxglove.port = 0;
-    return config;
-  }
-
-  std::unique_ptr<ViewNode> node_;
-  std::thread thread_;
-};
 
 /// A page that reads what it is sent.
 class Page {
@@ -194,6 +166,11 @@ TEST(ViewNode, TellsTheHealthOfTheProcesses) {
   EXPECT_THAT(snapshot, HasSubstr("\"other_diagnostics\""));
 }
 
+TEST(ViewNode, HasASnapshotFromTheStart) {
+  const RunningView view;
+  EXPECT_THAT(Fetch(view.page_port(), "/snapshot.json"), HasSubstr("\"processes\":[]"));
+}
+
 TEST(ViewNode, RefusesWhatThePageMayNotDo) {
   RunningView view;
   Page page(view.page_port());
@@ -266,32 +243,7 @@ TEST(ViewNode, ServesThePage) {
   EXPECT_THAT(Fetch(view.page_port(), "/../config.hpp"), StartsWith("HTTP/1.1 404"));
 }
 
-class Foxglove : public testing::Test {
- protected:
-  /// The channel of a topic, once it is advertised.
-  Json Channel(WebClient* client, const std::string& topic) {
-    while (const auto frame = client->ReadFrame()) {
-      if (frame->opcode != 1) continue;
-      const Json message = Json::parse(frame->payload);
-      if (message.at("op") != "advertise") continue;
-      for (const Json& channel : message.at("channels")) {
-        if (channel.at("topic") == topic) return channel;
-      }
-    }
-    return nullptr;
-  }
-  static void Subscribe(WebClient* client, int id, const Json& channel) {
-    client->SendText(Json({{"op", "subscribe"},
-                           {"subscriptions", {{{"id", id}, {"channelId", channel.at("id")}}}}})
-                         .dump());
-  }
-  static std::optional<std::string> NextData(WebClient* client) {
-    while (const auto frame = client->ReadFrame()) {
-      if (frame->opcode == 2) return frame->payload;
-    }
-    return std::nullopt;
-  }
-};
+class Foxglove : public FoxgloveTest {};
 
 TEST_F(Foxglove, GetsTheBytesOfATopicWithItsSchema) {
   RunningView view;

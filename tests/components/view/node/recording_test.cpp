@@ -19,6 +19,7 @@
 #include "libs/geometry/frames.hpp"
 #include "libs/recording/output_file.hpp"
 #include "libs/recording/writer.hpp"
+#include "tests/components/view/node/running_view.hpp"
 #include "tests/libs/dds/test_participant.hpp"
 
 namespace palpate::view {
@@ -71,6 +72,7 @@ class Recording : public testing::Test {
     recording::Channel channel;
     channel.topic = topic;
     channel.message_encoding = "cdr";
+    channel.schema_id = writer.AddSchema("palpate_msgs/msg/ForceArray", "ros2msg", "");
     channel.id = writer.AddChannel(channel);
     for (int i = 1; i <= count; ++i) {
       const std::string cdr = CdrOfForces(static_cast<std::uint64_t>(i));
@@ -91,6 +93,7 @@ class Recording : public testing::Test {
   std::vector<std::string> stamps_;
   PageFeed feed_{Config(),
                  0,
+                 nullptr,
                  {.publish =
                       [this](const OutMessage& message) {
                         if (message.kind != "forces") return;
@@ -137,6 +140,30 @@ TEST_F(Recording, PausesAtItsEndAndBeginsAgain) {
   EXPECT_THAT(Shown(), ElementsAre("1"));
   source.Seek({.position_s = 1e9});
   EXPECT_EQ(StateOf(source).at("position_s"), 1.0);
+}
+
+/// A client of Foxglove.
+class RecordingInFoxglove : public Recording {};
+
+TEST_F(RecordingInFoxglove, IsPassedOnAsItWasRecorded) {
+  Write("/forces", 3);
+  ViewPlan plan;
+  plan.recording = {file_};
+  const RunningView view(NodeConfig(), std::move(plan));
+  WebClient client(view.foxglove_port());
+  client.Upgrade("/", "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n");
+  const Json channel = FoxgloveTest::Channel(&client, "/forces");
+  ASSERT_FALSE(channel.is_null());
+  EXPECT_EQ(channel.at("encoding"), "cdr");
+  EXPECT_EQ(channel.at("schemaName"), "palpate_msgs/msg/ForceArray");
+  FoxgloveTest::Subscribe(&client, 7, channel);
+  const auto data = FoxgloveTest::NextData(&client);
+  ASSERT_TRUE(data);
+  EXPECT_EQ(data->substr(0, 5), std::string("\x01\x07\x00\x00\x00", 5));
+  // The newest message at that place, byte by byte.
+  constexpr std::size_t kHeadBytes = 13;
+  EXPECT_THAT(std::vector<std::string>({CdrOfForces(1), CdrOfForces(2), CdrOfForces(3)}),
+              testing::Contains(data->substr(kHeadBytes)));
 }
 
 TEST_F(Recording, IsRefusedWithoutATopicThatIsShown) {

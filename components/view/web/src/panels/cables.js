@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { byId, element, replaceIfChanged } from '../ui/dom.js';
-import { isNumber, millimetres, withUnit } from '../ui/format.js';
+import { hundredths } from '../ui/format.js';
 
 const UPDATE_MS = 100;
 
@@ -21,8 +21,8 @@ export class CablesPanel {
     this.#next_ms = performance.now() + UPDATE_MS;
     const rows = cables.map(({ name, displacement_m, tension_N }) => element('tr', {},
       element('th', { scope: 'row' }, name.replaceAll('_', ' ')),
-      element('td', {}, millimetres(displacement_m)),
-      element('td', {}, isNumber(tension_N) ? withUnit(tension_N, 'N') : '–')));
+      element('td', {}, hundredths(1000 * displacement_m, 'mm')),
+      element('td', {}, hundredths(tension_N, 'N'))));
     replaceIfChanged(this.body, rows.length
       ? element('table', {}, element('tbody', {}, ...rows))
       : element('p', { class: 'empty' }, 'This robot has no cables.'));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-import { shownInterval } from '../scene/forces.js';
+import { KNOWN_LOAD, shownInterval } from '../scene/forces.js';
 import { UpperEnd } from '../scene/scale.js';
 import { byId, element, replaceIfChanged } from '../ui/dom.js';
 import { isNumber, place, withInterval } from '../ui/format.js';
@@ -10,12 +10,19 @@ const UPDATE_MS = 100;  // digits that change faster cannot be read
 /** Words of a frame that mean: measured, and nothing touches the robot. */
 const NOTHING_WRONG = new Set(['ok', 'no_contact']);
 
+const EMPTY = {
+  live: 'Waiting for forces of palpate-force-estimation.',
+  recording: 'No forces at this place of the recording.',
+  experiment: 'No estimate is shown: give forces.csv of palpate estimate as --results.',
+};
+
 const words = (status) => status.replaceAll('_', ' ');
 
 /** The list of forces: number, interval, place; or why there is none. */
 export class ForcesPanel {
   #forces = null;
   #truth = [];
+  #source = 'live';
   #full_scale = new UpperEnd(0.5);
   #pending = false;
 
@@ -26,7 +33,16 @@ export class ForcesPanel {
       this.#forces = message;
       this.#soon();
     });
-    feed.on('truth_forces', ({ forces }) => (this.#truth = forces));
+    feed.on('truth_forces', ({ forces }) => {
+      this.#truth = forces;
+      if (!this.#forces) this.#soon();
+    });
+    feed.on('hello', ({ source }) => {
+      this.#source = source;
+      this.#forces = null;
+      this.#truth = [];
+      this.#show();
+    });
     this.#show();
   }
 
@@ -41,8 +57,8 @@ export class ForcesPanel {
 
   #show() {
     if (!this.#forces) {
-      return replaceIfChanged(this.body, element('p', { class: 'empty' },
-        'Waiting for forces of palpate-force-estimation.'));
+      return replaceIfChanged(this.body, ...this.#truth.filter((force) => force.magnitude_N > 0)
+        .map((force) => this.#trueForce(force)), element('p', { class: 'empty' }, EMPTY[this.#source]));
     }
     const { status, reason, forces } = this.#forces;
     const rows = [];
@@ -83,8 +99,9 @@ export class ForcesPanel {
   }
 
   #trueForce(force) {
+    const name = force.reason === KNOWN_LOAD ? `known, ${force.name}` : `true, ${force.name}`;
     return element('div', { class: 'force truth', 'data-testid': 'truth-force' },
-      element('span', { class: 'name' }, element('i'), `true, ${force.name}`),
+      element('span', { class: 'name' }, element('i'), name),
       element('data', { value: force.magnitude_N }, withInterval(force.magnitude_N, NaN, 'N')));
   }
 

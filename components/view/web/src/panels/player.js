@@ -68,7 +68,8 @@ export class PlayerBar {
   }
 
   #showTime(position_s) {
-    const text = `${position(position_s)} / ${position(this.#state.duration_s)}`;
+    const part = this.#state.part ? `${this.#state.part.replaceAll('_', ' ')}, ` : '';
+    const text = `${part}${position(position_s)} / ${position(this.#state.duration_s)}`;
     setText(byId('player-time'), text);
     this.slider.setAttribute('aria-valuetext', text);
   }

@@ -9,12 +9,15 @@ export class ProcessesPanel {
   #health = null;
   #client = null;
   #topics_open = false;
+  #nobody = '';
 
   constructor(feed) {
     this.feed = feed;
     this.body = byId('processes-body');
     // toggle does not bubble
     this.body.addEventListener('toggle', ({ target }) => (this.#topics_open = target.open), true);
+    feed.on('hello', ({ source }) => (this.#nobody = source === 'experiment'
+      ? 'An experiment is shown; no process runs.' : 'No process has reported yet.'));
     feed.on('health', (message) => {
       this.#health = message;
       this.#show();
@@ -41,7 +44,7 @@ export class ProcessesPanel {
     const table = element('table', { 'data-testid': 'process-table' },
       element('thead', {}, head), element('tbody', {}, ...rows));
     const empty = processes.length === 0
-      ? element('p', { class: 'empty' }, 'No process has reported yet.') : null;
+      ? element('p', { class: 'empty' }, this.#nobody) : null;
     replaceIfChanged(this.body, empty, table, this.#topics(topics ?? []), this.#clocks());
   }
 

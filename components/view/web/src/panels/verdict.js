@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { byId, setText } from '../ui/dom.js';
+import { isNumber, millimetres } from '../ui/format.js';
 
 const UPDATE_MS = 500;  // it is read aloud, too
+
+const BEYOND_NOISE = 2;
 
 /** One sentence on what the system feels now. */
 export class Verdict {
   #next_ms = 0;
+  #experiment = false;
 
   constructor(feed) {
     this.node = byId('verdict');
+    feed.on('hello', ({ source }) => (this.#experiment = source === 'experiment'));
     feed.on('forces', (message) => this.#take(message));
+    feed.on('model_error', (message) => this.#takeResidual(message));
   }
 
   say(text, state) {
@@ -19,9 +25,20 @@ export class Verdict {
     this.node.dataset.state = state;
   }
 
+  /** Of an experiment the question is how well the model agrees with what was measured. */
+  #takeResidual({ residual_rms_m, noise_rms_m }) {
+    const now_ms = performance.now();
+    if (!this.#experiment || now_ms < this.#next_ms || !isNumber(residual_rms_m)) return;
+    this.#next_ms = now_ms + UPDATE_MS;
+    const residual = `Markers ${millimetres(residual_rms_m)} from the model`;
+    if (!isNumber(noise_rms_m)) return this.say(residual, 'calm');
+    const times = residual_rms_m / noise_rms_m;
+    this.say(`${residual}, noise ${millimetres(noise_rms_m)}`, times > BEYOND_NOISE ? 'touched' : 'calm');
+  }
+
   #take({ status, reason, forces }) {
     const now_ms = performance.now();
-    if (now_ms < this.#next_ms) return;
+    if (this.#experiment || now_ms < this.#next_ms) return;
     this.#next_ms = now_ms + UPDATE_MS;
     const usable = forces.filter((force) => force.status === 'ok').length;
     if (status !== 'ok' && status !== 'no_contact' && usable === 0) {

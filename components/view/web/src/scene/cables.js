@@ -10,9 +10,9 @@ import { sample } from './colormap.js';
 
 const WIDTH_PX = 3.5;
 
-/** The paths of the cables, coloured by tension where it is known. */
+/** The paths of the cables along the body, coloured by tension where it is known. */
 export class Cables {
-  #materials = new Map();
+  #lines = new Map();  // by name
   #tensions = new Map();
   #highest_N = 1;
 
@@ -23,19 +23,19 @@ export class Cables {
 
   /** @param {Object<string, Float32Array>} paths points of each cable, robot frame, m */
   setPaths(paths) {
-    this.group.clear();
-    this.#materials.clear();
+    const names = Object.keys(paths);
+    if (names.length !== this.#lines.size || names.some((name) => !this.#lines.has(name))) {
+      this.group.clear();
+      this.#lines = new Map(names.map((name) => [name, makeLine()]));
+      this.group.add(...this.#lines.values());
+      this.#paint();
+    }
     for (const [name, points_m] of Object.entries(paths)) {
       const segments = [];
       for (let i = 0; i + 5 < points_m.length; i += 3) segments.push(...points_m.slice(i, i + 6));
-      const material = new LineMaterial({ linewidth: WIDTH_PX });
-      const geometry = new LineSegmentsGeometry().setPositions(segments);
-      const line = new LineSegments2(geometry, material);
-      line.frustumCulled = false;
-      this.group.add(line);
-      this.#materials.set(name, material);
+      const { geometry } = this.#lines.get(name);
+      geometry.setPositions(segments);  // it makes new buffers
     }
-    this.#paint();
   }
 
   /** @param {Map<string, number>} tensions N; absent where unknown */
@@ -46,12 +46,19 @@ export class Cables {
   }
 
   #paint() {
-    for (const [name, material] of this.#materials) {
+    for (const [name, { material }] of this.#lines) {
       const tension = this.#tensions.get(name);
       if (tension === undefined) material.color.setStyle(color('cable'));
       else material.color.copy(tensionColor(tension / this.#highest_N));
     }
   }
+}
+
+function makeLine() {
+  const line = new LineSegments2(new LineSegmentsGeometry(),
+    new LineMaterial({ linewidth: WIDTH_PX }));
+  line.frustumCulled = false;
+  return line;
 }
 
 function tensionColor(t) {

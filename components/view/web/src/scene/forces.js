@@ -8,6 +8,8 @@ import { Arrows } from './arrows.js';
 import { UpperEnd } from './scale.js';
 
 const LONGEST_SHARE = 0.45;  // of the robot's radius, for the strongest force
+/** What the server says of a force that was declared in loads.csv. */
+export const KNOWN_LOAD = 'known load';
 const THICKNESS_SHARE = 0.012;
 
 /** Arrows and labels of estimated and true forces. */
@@ -30,6 +32,15 @@ export class ForceArrows {
     this.#last.truth = forces;
   }
 
+  hasEstimates() {
+    return this.#last.estimated.length > 0;
+  }
+
+  /** An experiment knows loads, a virtual robot the truth. */
+  hasKnownLoads() {
+    return this.#last.truth.some(({ reason }) => reason === KNOWN_LOAD);
+  }
+
   metresPerNewton(radius) {
     return (LONGEST_SHARE * radius) / this.#full_scale.value;
   }
@@ -48,8 +59,8 @@ export class ForceArrows {
       detail: force.status === 'ok' ? '' : force.status.replaceAll('_', ' '),
     }));
     const true_sizes = { ...sizes, thickness: 0.6 * sizes.thickness };
-    const truth = this.#place(this.truth, this.#last.truth, true_sizes, () => ({
-      color: color('truth'), detail: 'true',
+    const truth = this.#place(this.truth, this.#last.truth, true_sizes, ({ reason }) => ({
+      color: color('truth'), detail: reason || 'true',
     }));
     return [...estimated, ...truth];
   }

@@ -5,7 +5,8 @@ import { byId, element, replaceIfChanged } from '../ui/dom.js';
 import { millimetres, round } from '../ui/format.js';
 
 /** What is drawn, and nothing else.
- * @param {{forces: boolean, truth: boolean, cloud: boolean, objects: boolean, ghost: boolean,
+ * @param {{forces: boolean, truth: boolean, known_loads: boolean, cloud: boolean,
+ *     objects: boolean, ghost: boolean, markers: number, residual_factor: number,
  *     cables: boolean, highest_tension_N: number, grid_m: number,
  *     metres_per_newton: number, unseen: boolean}} what */
 export function showLegend(what) {
@@ -15,8 +16,15 @@ export function showLegend(what) {
   const arrow = millimetres(0.1 * what.metres_per_newton);
   if (what.forces) add('mark-force', `estimated force, 0.1 N = ${arrow}; sleeve: 95 %`);
   if (what.truth) add('mark-truth', 'true force');
+  if (what.known_loads) add('mark-truth', `known load, 0.1 N = ${arrow}`);
   if (what.ghost) add('mark-ghost', 'true shape');
   if (what.cloud) add('mark-cloud', 'measured, robot');
+  if (what.markers > 0) {
+    add('mark-marker', 'marker as measured');
+    if (what.residual_factor > 0) {
+      add('mark-residual', `from the model to the marker, × ${what.residual_factor}`);
+    }
+  }
   if (what.objects) add('mark-object', 'measured, other objects');
   if (what.cables) {
     const known = what.highest_tension_N > 0;

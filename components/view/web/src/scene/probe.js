@@ -6,6 +6,10 @@ import { byId, setText } from '../ui/dom.js';
 import { isNumber, millimetres, place, withUnit } from '../ui/format.js';
 import { color, onTheme } from '../ui/theme.js';
 
+/** "1 in 100 000" */
+const chance = (p) => (p > 0 ? `1 in ${Math.round(1 / p).toLocaleString('en').replaceAll(',', ' ')}`
+  : 'rare');
+
 const ASK_AGAIN_MS = 1000;
 
 /** The point of the skin that was clicked: where it is, how far it has moved, and the smallest
@@ -80,6 +84,8 @@ export class Probe {
     const known = isNumber(this.#answer?.smallest_force_N);
     const force = known ? withUnit(this.#answer.smallest_force_N, 'N') : 'unknown';
     setText(byId('probe-force'), this.#answer ? force : 'asking');
-    setText(byId('probe-reason'), this.#answer?.reason ?? '');
+    setText(byId('probe-reason'), known
+      ? `Noise alone; false alarms ${chance(this.#answer.significance)}.`
+      : this.#answer?.reason ?? '');
   }
 }

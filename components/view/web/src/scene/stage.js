@@ -11,6 +11,9 @@ import { color, onTheme } from '../ui/theme.js';
 const FIRST_VIEW = new Vector3(0.74, -0.56, 0.44);  // seen from, robot frame
 const MARGIN = 0.98;  // of a fitted view
 const WAIT_MS = 5;  // until the end of the last drawing is asked for again
+/** A drawing whose end is not told by then is taken for done: the next one must not wait for ever
+ * for a browser that has lost it. */
+const LONGEST_DRAWING_MS = 1500;
 
 /** Renderer, camera and light. It draws only when something has changed, and only when the last
  * drawing is done: a browser without a graphics card takes longer than the data to come, and would
@@ -18,6 +21,7 @@ const WAIT_MS = 5;  // until the end of the last drawing is asked for again
 export class Stage {
   #pending = false;
   #fence = null;  // passed when the last drawing is done
+  #drawn_ms = 0;  // when the last drawing began
   #fitted = { center: new Vector3(), radius: 0.15 };
   /** Called before each drawing, to take in what has come since the last one. */
   beforeDrawing = () => {};
@@ -53,13 +57,16 @@ export class Stage {
 
   #drawWhenFree() {
     const gl = this.renderer.getContext();
-    if (this.#fence && gl.clientWaitSync(this.#fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
+    const is_late = performance.now() - this.#drawn_ms > LONGEST_DRAWING_MS;
+    if (this.#fence && !is_late &&
+        gl.clientWaitSync(this.#fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
       setTimeout(() => requestAnimationFrame(() => this.#drawWhenFree()), WAIT_MS);
       return;
     }
     gl.deleteSync(this.#fence);
+    this.#pending = false;  // before what may fail: a message that cannot be drawn stops no other
+    this.#drawn_ms = performance.now();
     this.beforeDrawing();
-    this.#pending = false;
     this.renderer.render(this.scene, this.camera);
     this.#fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();

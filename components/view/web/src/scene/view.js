@@ -12,6 +12,7 @@ import { Floor } from './floor.js';
 import { ForceArrows } from './forces.js';
 import { Ghost } from './ghost.js';
 import { Labels } from './labels.js';
+import { Markers } from './markers.js';
 import { showLegend } from './legend.js';
 import { nodeAt, onClick } from './pick.js';
 import { Probe } from './probe.js';
@@ -29,6 +30,7 @@ export class SceneView {
   #radius = 0.15;
   #shown = { cloud: true, ghost: true, cables: true };
   #tensions = new UpperEnd(0.1);
+  #live = true;  // an experiment may have no estimates at all
   #unseen = false;  // some nodes have no value
   #has = { robot: false, object: false, cables: false, tension: false };
 
@@ -37,6 +39,7 @@ export class SceneView {
     this.robot = new Robot();
     this.ghost = new Ghost();
     this.clouds = { robot: new Cloud('cloud', 1.3), object: new Cloud('object', 2) };
+    this.markers = new Markers();
     this.cables = new Cables();
     this.floor = new Floor();
     this.arrows = new ForceArrows(contact_colors);
@@ -46,7 +49,7 @@ export class SceneView {
     this.labels = new Labels(byId('labels'), this.stage, OBSTACLES);
     this.cables.group.visible = false;  // without the robot they say nothing
     this.stage.scene.add(this.floor.group, this.robot.group, this.ghost.group,
-      this.clouds.robot.points, this.clouds.object.points, this.cables.group,
+      this.clouds.robot.points, this.clouds.object.points, this.markers.group, this.cables.group,
       this.arrows.estimated.group, this.arrows.truth.group, this.probe.dot);
     this.stage.onDrawn = () => this.labels.place();
     onClick(byId('view'), (at) => this.probeAt(at));
@@ -65,7 +68,12 @@ export class SceneView {
       mesh_state: (message) => this.#takeShape(message),
       robot_cloud: (message) => this.#takeCloud('robot', message),
       object_cloud: (message) => this.#takeCloud('object', message),
+      markers: ({ arrays }) => this.markers.set(arrays, this.#radius, performance.now()),
       cables: ({ cables }) => this.#takeCables(cables),
+      cable_paths: ({ arrays }) => {
+        this.cables.setPaths(arrays);
+        this.#has.cables = Object.keys(arrays).length > 0;
+      },
       truth_forces: ({ forces }) => this.arrows.setTruth(forces),
       forces: ({ forces }) => this.arrows.setEstimated(forces),
     };
@@ -81,14 +89,11 @@ export class SceneView {
       this.#latest.clear();
       this.#showForces();
     };
+    feed.on('hello', ({ source }) => (this.#live = source !== 'experiment'));
     feed.on('mesh', (message) => this.#takeMesh(message));
     feed.on('truth_mesh', (message) => {
       this.#truth_hash = message.hash;
       this.ghost.setMesh(message.arrays);
-    });
-    feed.on('cable_paths', ({ arrays }) => {
-      this.cables.setPaths(arrays);
-      this.#has.cables = Object.keys(arrays).length > 0;
     });
     feed.on('probe', (answer) => this.probe.take(answer));
   }
@@ -104,6 +109,7 @@ export class SceneView {
   toggle(part) {
     this.#shown[part] = !this.#shown[part];
     this.clouds.robot.points.visible = this.clouds.object.points.visible = this.#shown.cloud;
+    this.markers.group.visible = this.#shown.cloud;
     this.ghost.group.visible = this.#shown.ghost;
     this.cables.group.visible = this.#shown.cables && this.robot.mesh !== null;
     this.#showForces();
@@ -200,9 +206,12 @@ export class SceneView {
     this.labels.set(this.arrows.show(this.#radius, performance.now()));
     const ghost = this.#shown.ghost && this.ghost.surface !== null;
     showLegend({
-      forces: this.robot.surface !== null,
-      truth: this.ghost.surface !== null,
+      forces: this.robot.surface !== null && (this.#live || this.arrows.hasEstimates()),
+      truth: this.ghost.surface !== null && !this.arrows.hasKnownLoads(),
+      known_loads: this.arrows.hasKnownLoads(),
       ghost,
+      markers: this.#shown.cloud ? this.markers.count : 0,
+      residual_factor: this.markers.factor,
       cloud: this.#has.robot && this.#shown.cloud,
       objects: this.#has.object && this.#shown.cloud,
       cables: this.#has.cables && this.#shown.cables,

@@ -3,6 +3,7 @@
 
 const DIGITS = 3;
 const NONE = '–';
+const SMALLEST = 5e-7;  // six decimals are the most that are shown
 
 export const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
 
@@ -16,6 +17,7 @@ function decimals(x) {
 /** Three significant digits without an exponent, "0.0123", "12.3", "1230". */
 export function number(x) {
   if (!isNumber(x)) return NONE;
+  if (Math.abs(x) < SMALLEST) return '0';
   const text = Number(x.toPrecision(DIGITS)).toFixed(Math.min(decimals(x), 6));
   return text.replace('-', '−');
 }
@@ -34,6 +36,12 @@ export function withInterval(x, half_width, unit) {
   // A number far below its interval has no more decimals than the interval needs.
   const places = Math.min(decimals(Math.max(Math.abs(x), half_width / 10)), 6);
   return `${x.toFixed(places).replace('-', '−')} ± ${half_width.toFixed(places)} ${unit}`;
+}
+
+/** Two decimals, for columns of numbers that change. */
+export function hundredths(x, unit) {
+  if (!isNumber(x)) return NONE;
+  return `${x.toFixed(2).replace(/^-0\.00$/, '0.00').replace('-', '−')} ${unit}`;
 }
 
 export const millimetres = (m) => withUnit(isNumber(m) ? 1000 * m : NaN, 'mm');
