@@ -179,9 +179,10 @@ std::string HowToRepeat(const DiagnosisResult& result) {
   for (const auto& [name, text] : facts) html += Element("dt", name) + Element("dd", text);
   html += "</dl>\n";
   if (result.view_commands.empty()) return html;
-  html += Element("p",
-                  "The residuals on the body, moving with the recordings, in a browser: of the robot "
-                  "file, then with the named causes.");
+  html +=
+      Element("p",
+              "The residuals on the body, moving with the recordings, in a browser: of the robot "
+              "file, then with the named causes.");
   for (const std::string& command : result.view_commands) html += Element("pre", command);
   return html;
 }

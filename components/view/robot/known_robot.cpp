@@ -3,7 +3,6 @@
 
 #include "components/view/robot/known_robot.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "libs/core/check.hpp"
@@ -11,6 +10,7 @@
 #include "libs/core/names.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/geometry/closest_point.hpp"
+#include "libs/linalg/qr.hpp"
 #include "libs/robot/compliance.hpp"
 
 namespace palpate::view {
@@ -29,7 +29,7 @@ Eigen::VectorXd MotionPerNewton(const robot::Compliance& compliance,
   const Eigen::MatrixXd W_aa_m_N = compliance.W_aa()(taut, taut);
   const Eigen::VectorXd W_af_m_N = compliance.W_af()(taut, 0);
   // Cables along one path are dependent.
-  const Eigen::VectorXd pull = W_aa_m_N.completeOrthogonalDecomposition().solve(W_af_m_N);
+  const Eigen::VectorXd pull = linalg::LeastSquares(W_aa_m_N, W_af_m_N);
   motion_m_N -= compliance.W_ea()(Eigen::all, taut) * pull;
   return motion_m_N;
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -11,14 +12,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "libs/core/file.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/transforms.hpp"
@@ -248,6 +252,103 @@ TEST_F(ViewProgram, CostsAClientLessThanATwelfthOfACore) {
   client.join();
   EXPECT_LE(used, 0.08);
   EXPECT_GT(frames, 500);
+}
+
+/// PALPATE_VIEW_MINUTES: how long; 30 without it.
+int MinutesOfMemory() {
+  const char* minutes = std::getenv("PALPATE_VIEW_MINUTES");
+  return minutes == nullptr ? 30 : std::max(1, std::atoi(minutes));
+}
+
+/// Opens the page again and again: looks at it for a while, goes without a word, or reads nothing.
+void ComeAndGo(int port, const std::atomic<bool>& ended, std::atomic<int>* visits) {
+  for (int visit = 0; !ended; ++visit) {
+    WebClient page(port);
+    page.Upgrade("/live");
+    page.SendText(R"({"kind":"probe","vertex":1})");
+    const auto end = std::chrono::steady_clock::now() + (visit % 3 == 0 ? 4s : 1s);
+    while (!ended && std::chrono::steady_clock::now() < end) {
+      if (visit % 4 == 3) {
+        std::this_thread::sleep_for(50ms);  // its messages wait, and are dropped
+      } else {
+        page.ReadFrame(200ms);
+      }
+    }
+    ++*visits;
+  }
+}
+
+TEST_F(ViewProgram, KeepsItsMemoryLevelWithClientsThatComeAndGo) {
+  Start();
+  const int port = PagePort();
+  std::atomic<bool> ended = false;
+  std::atomic<int> visits = 0;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 3; ++i) clients.emplace_back([&] { ComeAndGo(port, ended, &visits); });
+  const Load load(&node_);
+  const auto run = [&](std::chrono::seconds duration) {
+    node_.loop.DispatchUntil([] { return false; }, std::chrono::steady_clock::now() + duration);
+    return process_->Holds();
+  };
+  // A sixth of the time to grow to its size; of the rest the medians of both halves are compared.
+  constexpr int kSamples = 24;
+  const auto step = std::chrono::seconds(60 * MinutesOfMemory() / kSamples);
+  std::vector<double> memory_MiB;
+  Holdings last;
+  for (int i = 0; i < kSamples; ++i) {
+    last = run(step);
+    if (i >= kSamples / 6) memory_MiB.push_back(last.memory_MiB);
+  }
+  ended = true;
+  for (std::thread& client : clients) client.join();
+  const Holdings alone = run(5s);
+  const auto half = memory_MiB.begin() + static_cast<std::ptrdiff_t>(memory_MiB.size() / 2);
+  const double before_MiB = Median({memory_MiB.begin(), half});
+  const double after_MiB = Median({half, memory_MiB.end()});
+  std::printf(
+      "palpate-view: %d visits in %d min, %.1f MiB in the first half, %.1f MiB in the "
+      "second, %zu open files with clients, %zu without\n",
+      visits.load(), MinutesOfMemory(), before_MiB, after_MiB, last.files, alone.files);
+  EXPECT_GT(visits, 10);
+  EXPECT_LE(after_MiB, before_MiB + 2.0);
+  EXPECT_LE(alone.files, last.files);
+  EXPECT_FALSE(process_->Wait(0s));
+}
+
+/// A rod that is pulled, as `palpate simulate` makes it.
+TEST_F(ViewProgram, ShowsAnExperimentFolder) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "palpate_view_experiment";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder / "recordings/r1_hold");
+  WriteFile(folder / "experiment.yaml",
+            "robot: " PALPATE_SOURCE_DIR "/config/robots/beam.yaml\nmarkers_sigma_m: 0.0002\n");
+  WriteFile(folder / "recordings/r1_hold/recording.yaml", "kind: hold\n");
+  WriteFile(folder / "recordings/r1_hold/markers.csv",
+            "t_s,marker,x_m,y_m,z_m\n"
+            "0,Tip-1,0,0.015,0.036\n0,Tip-2,0,-0.006,0.024\n0,Tip-3,0,0.036,0.006\n"
+            "2,Tip-1,0,0.015,0.036\n2,Tip-2,0,-0.006,0.024\n2,Tip-3,0,0.036,0.006\n");
+  Start({"--recording", folder.string()});
+  WebClient page(PagePort());
+  page.Upgrade("/live");
+  std::map<std::string, Json> seen;
+  while (seen.size() < 4) {
+    const auto frame = page.ReadFrame(20s);
+    ASSERT_TRUE(frame) << "of 4 kinds came " << seen.size();
+    std::string_view text = frame->payload;
+    if (frame->opcode == 2) text = text.substr(4, text.find("]}", 4));
+    for (const char* kind : {"hello", "mesh_state", "markers", "model_error"}) {
+      if (text.find("\"kind\":\"" + std::string(kind) + "\"") == text.npos) continue;
+      seen[kind] = frame->opcode == 1 ? Json::parse(text) : Json();
+    }
+  }
+  EXPECT_EQ(seen.at("hello").at("source"), "experiment");
+  EXPECT_EQ(seen.at("hello").at("source_name"), "palpate_view_experiment");
+  // The beam sags under its own weight, which these markers do not show.
+  EXPECT_GT(seen.at("model_error").at("residual_rms_m").get<double>(), 1e-4);
+  EXPECT_EQ(RunProgram("palpate-view", {"--recording", folder.string(), "--results", "/no/such"},
+                       log_.string() + "_refused"),
+            2);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -9,14 +9,19 @@
 #include <optional>
 
 #include "components/palpate/calibrate/calibrate_verb.hpp"
+#include "components/palpate/compare/force_tracks.hpp"
 #include "components/palpate/demo_data.hpp"
 #include "components/palpate/demo_scene.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/node/demo/demo_place.hpp"
+#include "components/palpate/node/demo/demo_results.hpp"
 #include "components/palpate/node/demo/demo_step.hpp"
 #include "components/palpate/node/demo/force_listener.hpp"
+#include "components/palpate/node/demo/system_processes.hpp"
+#include "components/view/plot/force_plot.hpp"
 #include "libs/app/child_process.hpp"
 #include "libs/app/run_main.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::command {
@@ -67,6 +72,34 @@ std::unique_ptr<app::ChildProcess> StartPlayer(const DemoData& data, const DemoP
       "player.log");
 }
 
+std::filesystem::path RecordingFile(const DemoPlace& place) {
+  return place.folder / "recording.mcap";
+}
+
+/// Without an earlier recording, which palpate-recorder would not replace.
+std::unique_ptr<app::ChildProcess> StartRecorder(const DemoPlace& place) {
+  std::error_code error;
+  std::filesystem::remove(RecordingFile(place), error);
+  return place.Start("palpate-recorder",
+                     {"--out", RecordingFile(place).string(), "--robot", "beam"}, "recorder.log");
+}
+
+void TellPage(const DemoPlace& place) {
+  const std::string url = PageUrlIn(place.folder / "view.log");
+  if (!url.empty()) fmt::print("  Look at it in a browser: {}\n", url);
+}
+
+void WriteForcePlot(const DemoPlace& place, const ForceListener& listener) {
+  ForceTracks tracks(false);
+  for (const auto& [stamp_ns, estimate] : listener.estimates()) {
+    tracks.Add(NsToSeconds(stamp_ns - listener.estimates().begin()->first),
+               HasResult(estimate.status), WithoutTruth(estimate));
+  }
+  view::SaveTimePlot(place.folder / "forces.svg",
+                     view::MakeForcePlot("Force estimated from markers", tracks.Tracks()));
+  fmt::print("  plot: {}\n", (place.folder / "forces.svg").string());
+}
+
 void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, ForceListener* listener) {
   const DemoStep step(
       fmt::format("[3/4] Markers of {} through DDS: palpate-player -> "
@@ -78,6 +111,7 @@ void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, ForceListe
   if (const auto ended = estimation->ExitCode()) {
     RefuseEnded(*estimation, *ended);
   }
+  TellPage(place);
   const auto player = StartPlayer(data, place);
   const bool finished = listener->Listen(
       [&] { return player->ExitCode().has_value() || estimation->ExitCode().has_value(); },
@@ -101,7 +135,11 @@ int BeamDemo(const BeamDemoOptions& options) {
   const DemoData data = PrepareData(options, place);
   CalibrateOnSelfWeight(data, place);
   ForceListener listener(place.domain_id);
-  ListenWhileItPlays(data, place, &listener);
+  {
+    const auto recorder = StartRecorder(place);
+    const auto page = options.no_view ? nullptr : place.Start("palpate-view", {"beam"}, "view.log");
+    ListenWhileItPlays(data, place, &listener);
+  }
 
   const DemoStep step("[4/4] Force against truth");
   const DemoResult result =
@@ -112,6 +150,8 @@ int BeamDemo(const BeamDemoOptions& options) {
   }
   view::SaveScene(place.folder / "scene.png", result.scene);
   fmt::print("  image: {}\n", (place.folder / "scene.png").string());
+  WriteForcePlot(place, listener);
+  TellRecording(RecordingFile(place), "beam");
   return app::kExitDone;
 }
 

@@ -87,4 +87,11 @@ void WriteDemoResults(const std::filesystem::path& folder, const std::filesystem
   fmt::print("  {:<18} {}\n", "image", (folder / "scene.png").string());
 }
 
+void TellRecording(const std::filesystem::path& recording, const std::filesystem::path& robot) {
+  std::error_code none;
+  if (!std::filesystem::exists(recording, none)) return;
+  fmt::print("  {:<18} {}\n  Look at it again in a browser: palpate view {} --robot {}\n",
+             "recording", recording.string(), recording.string(), robot.string());
+}
+
 }  // namespace palpate::command

@@ -22,4 +22,7 @@ view::Scene MakeForceScene(const robot::RobotModel& model, const ForceFrame& fra
 void WriteDemoResults(const std::filesystem::path& folder, const std::filesystem::path& robot,
                       const std::string& title, const LiveComparison& comparison);
 
+/// Prints where the recording is, and the command that shows it; nothing where there is none.
+void TellRecording(const std::filesystem::path& recording, const std::filesystem::path& robot);
+
 }  // namespace palpate::command

@@ -23,7 +23,10 @@ int Demo(const DemoOptions& options) {
     if (!system.scenario.empty() || !system.robot.empty()) {
       throw InputError("--recording beam and --computed take neither --robot nor --scenario");
     }
-    return BeamDemo({.out = system.out, .data = system.data, .computed = options.computed});
+    return BeamDemo({.out = system.out,
+                     .data = system.data,
+                     .computed = options.computed,
+                     .no_view = system.no_view});
   }
   if (!system.data.empty() && !system.scenario.empty()) {
     throw InputError(
@@ -60,6 +63,7 @@ app::Verb DemoVerb() {
                              "palpate_demo here where palpate is installed");
             arguments.Option("--seconds", &system.seconds, 1, 86400,
                              "Duration, s; without it 30 s, or all of --data");
+            arguments.Flag("--no-view", &system.no_view, "Run without the live page");
             DeclareRobotOption(arguments, &system.robot,
                                "the robot to simulate, or the one of --data; without it four_leg");
             arguments.Option("--scenario", &system.scenario,

@@ -126,7 +126,8 @@ void TellPage(const SystemProcesses& processes) {
 }
 
 void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot,
-               const std::string& camera_address, DemoRun* run) {
+               const std::string& camera_address, const std::filesystem::path& recording,
+               DemoRun* run) {
   const std::filesystem::path scenario_file = ScenarioFile(options);
   const auto scenario = scenario::ReadScenario(scenario_file, app::LoadYaml);
   if (!scenario.camera)
@@ -143,7 +144,9 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
                        {"camera_address", camera_address},
                        {"camera_pose", geometry::FormatPose(scenario.camera->T_robot_camera)}},
          .calibration = options.calibration,
-         .last = "virtual_robot"});
+         .last = "virtual_robot",
+         .page = !options.no_view,
+         .recording = recording});
     if (!run->AwaitComponents({"capture", "perception", "force_estimation"})) return;
     run->processes().StartLast();
     const auto answered = [&] { return run->comparison().frames() > 0; };
@@ -179,7 +182,7 @@ std::vector<std::string> EstimationSettings(const ReplayedImages& images,
 }
 
 void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::path& robot,
-                    DemoRun* run) {
+                    const std::filesystem::path& recording, DemoRun* run) {
   const robot::CalibrationFile calibration =
       options.calibration.empty() ? robot::CalibrationFile()
                                   : robot::ReadCalibrationFile(options.calibration, app::LoadYaml);
@@ -196,12 +199,15 @@ void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::pat
                        {"camera_pose", geometry::FormatPose(images.T_robot_camera)}},
          .calibration = options.calibration,
          .settings = EstimationSettings(images, calibration),
-         .last = "player"});
+         .last = "player",
+         .page = !options.no_view,
+         .recording = recording});
     if (!run->AwaitComponents({"perception", "force_estimation"})) return;
     run->processes().StartLast();
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
+  TellPage(run->processes());
   const DemoStep step(fmt::format("[2/3] {} recordings, {} frames, each estimated before the next",
                                   images.recordings, images.frames));
   run->ShowTable();
@@ -211,7 +217,7 @@ void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::pat
 }
 
 int Conclude(const DemoPlace& place, const std::filesystem::path& robot, bool with_truth,
-             DemoRun* run) {
+             const std::filesystem::path& recording, DemoRun* run) {
   const std::string troubles = run->Troubles();
   run->processes().Stop();
   const DemoStep step("[3/3] Result");
@@ -226,6 +232,7 @@ int Conclude(const DemoPlace& place, const std::filesystem::path& robot, bool wi
     fmt::print("  {:<18} {}\n", "latency", (place.folder / "latency.csv").string());
   }
   WriteDemoResults(place.folder, robot, "Forces estimated from depth images", comparison);
+  TellRecording(recording, robot);
   const bool worked = with_truth ? comparison.summary().found() > 0 : comparison.results() > 0;
   if (worked) return app::kExitDone;
   fmt::print("  failed: no {}\n{}  logs: {}\n",
@@ -241,6 +248,7 @@ int SystemDemo(const SystemDemoOptions& options) {
   const std::filesystem::path robot =
       std::filesystem::absolute(FindRobotFile(options.robot.empty() ? "four_leg" : options.robot));
   const bool with_truth = options.data.empty();
+  const std::filesystem::path recording = place.folder / "recording.mcap";
   fmt::print(
       "palpate demo: forces on a soft robot, estimated live from a depth camera.\nDDS domain {}, "
       "this machine only; results in {}\n",
@@ -249,11 +257,11 @@ int SystemDemo(const SystemDemoOptions& options) {
               options.remap);
   run.SetLogFolder(place.folder);
   if (with_truth) {
-    PlayBench(options, robot, place.CameraAddress(), &run);
+    PlayBench(options, robot, place.CameraAddress(), recording, &run);
   } else {
-    PlayRecordings(options, robot, &run);
+    PlayRecordings(options, robot, recording, &run);
   }
-  return Conclude(place, robot, with_truth, &run);
+  return Conclude(place, robot, with_truth, recording, &run);
 }
 
 }  // namespace palpate::command

@@ -18,10 +18,45 @@ namespace palpate::command {
 
 namespace {
 
-/// A demonstration without its page is still one.
+/// A demonstration without its page and its recording is still one.
 constexpr const char* kPage = "view";
+constexpr const char* kRecorder = "recorder";
+
+bool IsNeeded(const std::string& process) { return process != kPage && process != kRecorder; }
+
+/// What the page shows of a robot; images and clouds would be a hundred times as much.
+ProcessPlan RecorderOf(const DemoSystem& demo) {
+  ProcessPlan plan;
+  plan.name = plan.component = kRecorder;
+  plan.arguments = {"--out", demo.recording.string()};
+  for (const char* large : {"/camera/*/image_raw*", "/perception/*_cloud"}) {
+    plan.arguments.insert(plan.arguments.end(), {"--exclude", large});
+  }
+  plan.nice = 10;  // what it misses costs less than what it delays
+  return plan;
+}
+
+/// Without an earlier recording of the same name, which palpate-recorder would not replace.
+void AddRecorder(const DemoSystem& demo, HostPlan* host) {
+  std::error_code error;
+  std::filesystem::remove(demo.recording, error);
+  if (error) {
+    throw RunError("cannot replace " + demo.recording.string() + ": " + error.message());
+  }
+  host->processes.insert(host->processes.begin(), RecorderOf(demo));
+}
 
 }  // namespace
+
+std::string PageUrlIn(const std::filesystem::path& log) {
+  std::ifstream stream(log);
+  constexpr std::string_view kMark = "page: ";
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t at = line.find(kMark);
+    if (at != line.npos) return line.substr(at + kMark.size());
+  }
+  return {};
+}
 
 void LogFiles::Line(const std::string& process, std::string_view line) {
   Append(FileOf(process), line);
@@ -49,6 +84,10 @@ void SystemProcesses::Start(const DemoSystem& demo) {
   SystemFile system = ReadSystemFile(FindSystemFile(demo.name), app::LoadYaml, demo.variables);
   system.domain_id = place_.domain_id;
   HostPlan& host = ChooseHost(system, "");
+  if (!demo.page) {
+    std::erase_if(host.processes, [](const ProcessPlan& plan) { return plan.name == kPage; });
+  }
+  if (!demo.recording.empty()) AddRecorder(demo, &host);
   for (ProcessPlan& plan : host.processes) {
     plan.respawn.reset();
     plan.remap.insert(plan.remap.end(), remap_.begin(), remap_.end());
@@ -74,7 +113,7 @@ void SystemProcesses::CheckAlive() {
   if (!launcher_) return;
   launcher_->Turn(0.0);
   for (const ProcessReport& report : launcher_->Reports()) {
-    if (report.state != LaunchState::kFailed || report.name == kPage) continue;
+    if (report.state != LaunchState::kFailed || !IsNeeded(report.name)) continue;
     RefuseEnded(report.name, report.reason, logs_.FileOf(report.name));
   }
 }
@@ -87,13 +126,12 @@ bool SystemProcesses::HasEnded(const std::string& process) const {
 }
 
 std::string SystemProcesses::PageUrl() const {
-  std::ifstream log(logs_.FileOf(kPage));
-  constexpr std::string_view kMark = "page: ";
-  for (std::string line; std::getline(log, line);) {
-    const std::size_t at = line.find(kMark);
-    if (at != line.npos) return line.substr(at + kMark.size());
-  }
-  return {};
+  if (!launcher_) return {};
+  const std::vector<ProcessReport> reports = launcher_->Reports();
+  const bool has_page = std::any_of(reports.begin(), reports.end(), [](const ProcessReport& one) {
+    return one.name == kPage && one.state != LaunchState::kFailed;
+  });
+  return has_page ? PageUrlIn(logs_.FileOf(kPage)) : std::string();  // else the log is an old one
 }
 
 void SystemProcesses::Stop() {

@@ -21,7 +21,12 @@ struct DemoSystem {
   std::filesystem::path calibration;       ///< of the process force_estimation; empty: none
   std::vector<std::string> settings = {};  ///< "PROCESS.KEY=VALUE"
   std::string last;                        ///< the process that starts at StartLast()
+  bool page = true;                        ///< with the process view
+  std::filesystem::path recording = {};    ///< of all but images and clouds; empty: none
 };
+
+/// What palpate-view has written to its log about where the page is; empty: nothing yet.
+std::string PageUrlIn(const std::filesystem::path& log);
 
 /// Each process writes to a log of its own, "force-estimation.log".
 class LogFiles : public LaunchOutput {

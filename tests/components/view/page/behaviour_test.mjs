@@ -5,8 +5,10 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 import {
-  closePages, openPage, part, pixelsOf, robotShare, startBrowser, until,
+  closePages, difference, openPage, part, pixelsOf, probeSkin, robotShare, settledPixels,
+  startBrowser, until,
 } from './browser.mjs';
+import { encodeBinary } from './fixture/encode.mjs';
 import { startServer } from './fixture/server.mjs';
 
 let browser;
@@ -139,10 +141,7 @@ withPage('shows what was dropped, and why a process does not work', {}, async (p
 
 withPage('a click on the skin asks for the smallest force there', {}, async (page, server) => {
   await hasRobot(page);
-  const { x, y, width, height } = await part(page, 'canvas').boundingBox();
-  for (let i = 1; i < 12 && !(await part(page, 'probe').isVisible()); ++i) {
-    await page.mouse.click(x + width / 2, y + (i * height) / 12);
-  }
+  await probeSkin(page);
   await sees(page, 'probe-force', /^0\.0873 N$/);
   const { vertex } = server.received.find(({ kind }) => kind === 'probe');
   assert.ok(Number.isInteger(vertex) && vertex < server.robot.rest_m.length / 3);
@@ -187,6 +186,60 @@ withPage('keys choose colours and parts, hold, and are listed', {}, async (page,
   await page.keyboard.press(' ');
   await until('numbers again', async () =>
     (await part(page, 'force-value').first().getAttribute('value')) !== held);
+});
+
+withPage('keys turn the view while no data come', {}, async (page, server) => {
+  await hasRobot(page);
+  server.sending = false;
+  const first = await settledPixels(page);
+  for (const key of ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', '+', '-']) {
+    await page.keyboard.press(key);
+    await until(`${key} turns the view`, async () =>
+      difference(first, await pixelsOf(page)) > 0.01);
+    await page.keyboard.press('r');
+    await until(`the first view after ${key}`, async () =>
+      difference(first, await pixelsOf(page)) < 0.002);
+  }
+  await page.keyboard.press('3');
+  await until('other colours', async () => difference(first, await pixelsOf(page)) > 0.02);
+});
+
+withPage('a drawing whose end is never told does not stop the next ones', {},
+  async (page, server) => {
+    await hasRobot(page);
+    server.sending = false;
+    const first = await settledPixels(page);
+    await page.evaluate(() => {
+      WebGL2RenderingContext.prototype.clientWaitSync = function () {
+        return this.TIMEOUT_EXPIRED;
+      };
+    });
+    for (const key of ['ArrowLeft', 'r', 'ArrowLeft']) await page.keyboard.press(key);
+    await until('a turned view', async () => difference(first, await pixelsOf(page)) > 0.01);
+  });
+
+withPage('an experiment shows markers and how far they are from the model', {
+  hello: { source: 'experiment', source_name: 'exp' }, silent: true,
+  player: { duration_s: 40, position_s: 10, rate: 1, paused: true, part: 'r1_hold' },
+}, async (page, server) => {
+  await sees(page, 'source', /experiment exp/);
+  const place = Float32Array.from([0.06, 0, 0.087, 0.018, -0.02, 0.108]);
+  server.broadcast([server.robot.first()[0],
+    encodeBinary({ kind: 'markers', stamp_ns: '1', names: ['a', 'b'] },
+      { measured_m: place, model_m: place.map((x) => x + 0.001) }),
+    JSON.stringify({ kind: 'model_error', stamp_ns: '1', residual_rms_m: 0.00121, samples: 2,
+      noise_rms_m: 0.0003, judgement: '' }),
+    JSON.stringify({ kind: 'truth_forces', stamp_ns: '1', status: 'ok', reason: '', age_s: 0,
+      latency_s: 0, forces: [{ name: 'load 1', status: 'ok', reason: 'known load',
+        position_m: [0.06, 0, 0.087], force_N: [0, 0, -0.5], magnitude_N: 0.5, ci95_N: 0,
+        location_ci95_m: 0 }] }),
+    JSON.stringify({ kind: 'player', ...server.player })]);
+  await sees(page, 'verdict', /^Markers 1\.21 mm from the model, noise 0\.300 mm$/);
+  await sees(page, 'legend', /marker as measured/);
+  await sees(page, 'legend', /from the model to the marker, × \d+/);
+  await sees(page, 'legend', /known load/);
+  await sees(page, 'truth-force', /known, load 1.*0\.500 N/);
+  await sees(page, 'player-time', /^r1 hold, 0:10\.0/);
 });
 
 withPage('the keyboard reaches each control, and focus is seen', {}, async (page) => {

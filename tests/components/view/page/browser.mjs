@@ -46,6 +46,15 @@ export async function closePages(browser) {
 
 export const part = (page, id) => page.locator(`[data-testid="${id}"]`);
 
+/** Clicks on the robot: down the middle of the drawing, until a point of the skin is hit. */
+export async function probeSkin(page) {
+  const { x, y, width, height } = await part(page, 'canvas').boundingBox();
+  for (let i = 1; i < 24 && !(await part(page, 'probe').isVisible()); ++i) {
+    await page.mouse.click(x + width / 2, y + (i * height) / 24);
+  }
+  assert.ok(await part(page, 'probe').isVisible(), 'no point of the skin was hit');
+}
+
 /** Waits until a function of the page's parts is true; the message says what was waited for. */
 export async function until(what, condition, limit_ms = LONG_MS) {
   const end_ms = performance.now() + limit_ms;
@@ -61,6 +70,28 @@ export async function pixelsOf(page) {
   const hide = '#scene > :not(#view) { visibility: hidden }';
   const shot = await part(page, 'canvas').screenshot({ style: hide });
   return PNG.sync.read(shot);
+}
+
+/** The drawing after it has come to rest: what is sent has stopped before. */
+export async function settledPixels(page) {
+  let last = await pixelsOf(page);
+  for (let same = 0; same < 3;) {
+    await page.waitForTimeout(300);
+    const next = await pixelsOf(page);
+    same = difference(last, next) === 0 ? same + 1 : 0;
+    last = next;
+  }
+  return last;
+}
+
+/** Share of pixels that differ. */
+export function difference(a, b) {
+  let count = 0;
+  for (let i = 0; i < a.data.length; i += 4) {
+    const moved = [0, 1, 2].some((k) => Math.abs(a.data[i + k] - b.data[i + k]) > 24);
+    if (moved) count += 1;
+  }
+  return count / (a.data.length / 4);
 }
 
 /** Pixels of the robot's colour scale, which the rest of the page has nowhere. */

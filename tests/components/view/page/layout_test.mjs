@@ -4,7 +4,9 @@
 
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
-import { boxes, closePages, openPage, overlaps, part, startBrowser, until } from './browser.mjs';
+import {
+  boxes, closePages, openPage, overlaps, part, probeSkin, startBrowser, until,
+} from './browser.mjs';
 import { startServer } from './fixture/server.mjs';
 
 const SIZES = [[1280, 720], [1920, 1080], [800, 900], [360, 740]];
@@ -44,6 +46,9 @@ for (const [width, height] of SIZES) {
       await until('a legend', async () => /grid/.test(await part(page, 'legend').textContent()));
       await until('processes', async () => (await part(page, 'process').count()) > 3);
       await until('a player', () => part(page, 'player').isVisible());
+      await probeSkin(page);
+      await until('its force', async () =>
+        /N$/.test(await part(page, 'probe-force').textContent()));
       const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
       const lightness = Math.max(...background.match(/\d+/g).map(Number));
       assert.equal(lightness < 128 ? 'dark' : 'light', theme);

@@ -57,8 +57,10 @@ export class ForcesPanel {
 
   #show() {
     if (!this.#forces) {
-      return replaceIfChanged(this.body, ...this.#truth.filter((force) => force.magnitude_N > 0)
-        .map((force) => this.#trueForce(force)), element('p', { class: 'empty' }, EMPTY[this.#source]));
+      const known = this.#truth.filter((force) => force.magnitude_N > 0)
+        .map((force) => this.#trueForce(force));
+      return replaceIfChanged(this.body, ...known,
+        element('p', { class: 'empty' }, EMPTY[this.#source]));
     }
     const { status, reason, forces } = this.#forces;
     const rows = [];

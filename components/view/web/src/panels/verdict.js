@@ -32,8 +32,8 @@ export class Verdict {
     this.#next_ms = now_ms + UPDATE_MS;
     const residual = `Markers ${millimetres(residual_rms_m)} from the model`;
     if (!isNumber(noise_rms_m)) return this.say(residual, 'calm');
-    const times = residual_rms_m / noise_rms_m;
-    this.say(`${residual}, noise ${millimetres(noise_rms_m)}`, times > BEYOND_NOISE ? 'touched' : 'calm');
+    const beyond = residual_rms_m > BEYOND_NOISE * noise_rms_m;
+    this.say(`${residual}, noise ${millimetres(noise_rms_m)}`, beyond ? 'touched' : 'calm');
   }
 
   #take({ status, reason, forces }) {

@@ -58,8 +58,11 @@ export class Markers {
       this.group.add(this.balls, this.segments);
     }
     this.balls.count = seen.length;
-    seen.forEach((at, i) => this.balls.setMatrixAt(i, new Matrix4().makeScale(size_m, size_m, size_m)
-      .setPosition(measured_m[at], measured_m[at + 1], measured_m[at + 2])));
+    const place = new Matrix4().makeScale(size_m, size_m, size_m);
+    seen.forEach((at, i) => {
+      place.setPosition(measured_m[at], measured_m[at + 1], measured_m[at + 2]);
+      this.balls.setMatrixAt(i, place);
+    });
     this.balls.instanceMatrix.needsUpdate = true;
   }
 
