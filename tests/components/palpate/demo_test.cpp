@@ -31,6 +31,10 @@ TEST(Demo, FindsTheWeightThroughTheProcessesAndDrawsIt) {
   EXPECT_THAT(text, testing::HasSubstr("truth      0.510 N"));
   EXPECT_THAT(text, testing::HasSubstr("inside the interval"));
   EXPECT_GT(std::filesystem::file_size(folder / "demo/scene.png"), 20000U);
+  EXPECT_THAT(ReadFile(folder / "demo/forces.svg"), testing::HasSubstr("<polyline"));
+  EXPECT_GT(std::filesystem::file_size(folder / "demo/recording.mcap"), 20000U);
+  EXPECT_THAT(text, testing::HasSubstr("in a browser: http://127.0.0.1:"));
+  EXPECT_THAT(text, testing::HasSubstr("palpate view "));
 }
 
 TEST(Demo, RefusesADataFolderWithoutTheBeam) {
