@@ -189,13 +189,14 @@ std::string CommentOf(const diagnosis::Diagnosis& diagnosis) {
 
 /// What another verb takes must not be there beside a partial report: that of an interrupted run
 /// is not written, and that of an earlier one is removed.
-void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
+void Write(const fs::path& folder, const std::vector<std::string>& view_commands,
+           diagnosis::Diagnosis* diagnosis) {
   experiment::CreateFolder(folder);
   if (diagnosis->result.interrupted) {
     for (const char* file : {kRobotFile, kCalibrationFile}) fs::remove(folder / file);
   }
   WriteFile(folder / "verdict.json", FormatVerdict(diagnosis->result));
-  WriteFile(folder / "report.html", FormatReport(diagnosis->result));
+  WriteFile(folder / "report.html", FormatReport(diagnosis->result, view_commands));
   const diagnosis::DiagnosisResult& result = diagnosis->result;
   if (result.verdict == diagnosis::Verdict::kDataUnfit || result.interrupted) return;
   WriteFile(folder / kRobotFile,
@@ -277,9 +278,8 @@ int Diagnose(const DiagnoseOptions& options) {
   result.reason = data.Named(result.reason);
   result.version = app::Version();
   result.command = CommandOf(options);
-  result.view_commands = ViewCommandsOf(options, result);
   result.duration_s = SecondsSince(begin);
-  Write(options.out, &diagnosis);
+  Write(options.out, ViewCommandsOf(options, result), &diagnosis);
   fmt::print("{}\n", VerdictParagraph(result));
   if (result.interrupted) {
     throw app::Interrupted(

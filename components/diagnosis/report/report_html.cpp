@@ -61,9 +61,18 @@ std::string Section(const std::string& title, const std::string& content) {
   return "<section>\n" + Element("h2", title) + content + "</section>\n";
 }
 
+std::string ViewCommands(const std::vector<std::string>& commands) {
+  if (commands.empty()) return "";
+  std::string html = Element(
+      "p", "In a browser, moving with the recordings: of the robot file, then as diagnosed.");
+  for (const std::string& command : commands) html += Element("pre", command);
+  return html;
+}
+
 }  // namespace
 
-std::string FormatReport(const DiagnosisResult& result) {
+std::string FormatReport(const DiagnosisResult& result,
+                         const std::vector<std::string>& view_commands) {
   std::string html = Head(result) + "<body>\n" + VerdictBlock(result) + "<main>\n";
   int number = 0;
   std::string figures;
@@ -81,6 +90,7 @@ std::string FormatReport(const DiagnosisResult& result) {
   html += Section("Recordings", RecordingTable(result));
   html += Section("What these data can show", FindableTable(result));
   html += Section("Not identifiable from data of this kind", IdentityList(result));
+  html += Section("The residuals on the body", ViewCommands(view_commands));
   html += Section("How to repeat", HowToRepeat(result));
   return html + "</main>\n</body>\n</html>\n";
 }

@@ -177,14 +177,7 @@ std::string HowToRepeat(const DiagnosisResult& result) {
   std::string html = result.command.empty() ? "" : Element("pre", result.command);
   html += "<dl class=\"facts\">\n";
   for (const auto& [name, text] : facts) html += Element("dt", name) + Element("dd", text);
-  html += "</dl>\n";
-  if (result.view_commands.empty()) return html;
-  html +=
-      Element("p",
-              "The residuals on the body, moving with the recordings, in a browser: of the robot "
-              "file, then with the named causes.");
-  for (const std::string& command : result.view_commands) html += Element("pre", command);
-  return html;
+  return html + "</dl>\n";
 }
 
 }  // namespace palpate::diagnosis

@@ -197,8 +197,6 @@ struct DiagnosisResult {
   std::string version;
   std::string command;
   double duration_s = 0.0;
-  /// Show the data beside the robot as its file has it, and as diagnosed; empty: they cannot.
-  std::vector<std::string> view_commands;
 };
 
 }  // namespace palpate::diagnosis

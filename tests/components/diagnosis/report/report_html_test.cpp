@@ -195,10 +195,10 @@ TEST(ReportHtml, ShowsTheTenBestExperiments) {
 }
 
 TEST(ReportHtml, TellsHowToRepeatAndToSeeItMove) {
-  DiagnosisResult result = FrictionExample();
+  const DiagnosisResult result = FrictionExample();
   EXPECT_THAT(FormatReport(result), Not(HasSubstr("palpate view")));
-  result.view_commands = {"palpate view exp --robot rod", "palpate view exp --results <out>"};
-  const std::string html = FormatReport(result);
+  const std::string html =
+      FormatReport(result, {"palpate view exp --robot rod", "palpate view exp --results <out>"});
   EXPECT_THAT(html, HasSubstr("<pre>palpate view exp --robot rod</pre>"));
   EXPECT_THAT(html, HasSubstr("<pre>palpate view exp --results &lt;out&gt;</pre>"));
   for (const std::string& text : {result.command, result.data_hash, result.version, result.robot,

@@ -144,9 +144,10 @@ TEST_F(FeedOfKnownRobot, ShowsImagesThatADriverHasPacked) {
   EXPECT_EQ(image.at("width"), 32);
   EXPECT_EQ(image.at("height"), 16);
   EXPECT_THAT(page_.warnings(), IsEmpty());
-  dds::SetNumbers(message->data, jpeg.data(), jpeg.size() / 2);
+  dds::Message<idl::sensor_msgs::CompressedImage> damaged;
+  dds::SetNumbers(damaged->data, jpeg.data(), jpeg.size() / 2);
   PageFeed other(Config(), 0, nullptr, page_.Outputs());  // with its rate still free
-  other.TakePackedColor(*message);
+  other.TakePackedColor(*damaged);
   EXPECT_THAT(page_.warnings(), SizeIs(1));
 }
 

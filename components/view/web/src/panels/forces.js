@@ -101,7 +101,7 @@ export class ForcesPanel {
   }
 
   #trueForce(force) {
-    const name = force.reason === KNOWN_LOAD ? `known, ${force.name}` : `true, ${force.name}`;
+    const name = `${force.reason === KNOWN_LOAD ? 'known' : 'true'}, ${words(force.name)}`;
     return element('div', { class: 'force truth', 'data-testid': 'truth-force' },
       element('span', { class: 'name' }, element('i'), name),
       element('data', { value: force.magnitude_N }, withInterval(force.magnitude_N, NaN, 'N')));

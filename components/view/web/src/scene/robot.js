@@ -60,12 +60,15 @@ export class Robot {
 
   /** @param {Float32Array} values by node; NaN is drawn grey */
   paint(values, low, high) {
-    const range = high - low || 1;
+    // One value for all, as of a body of one material, has the colour in the middle.
+    const is_one = high - low <= 1e-6 * high;
+    const range = is_one ? Infinity : high - low;
+    const from = is_one ? 0.5 : 0;
     const uv = this.uv.array;
     this.surface.source.forEach((node, vertex) => {
       const value = values[node];
       const known = Number.isFinite(value);
-      uv[2 * vertex] = known ? Math.min(Math.max((value - low) / range, 0.002), 0.998) : 0;
+      uv[2 * vertex] = known ? Math.min(Math.max(from + (value - low) / range, 0.002), 0.998) : 0;
       uv[2 * vertex + 1] = known ? 0.25 : 0.75;
     });
     this.uv.needsUpdate = true;
