@@ -35,6 +35,8 @@ class ValuesInFiles {
       for (int axis = 0; axis < 3; ++axis) {
         Add(std::string(1, "xyz"[axis]) + " of the fixed eyelet" + of, "mm",
             kMilli * cable.path_m(axis, 0));
+        Add("mean " + std::string(1, "xyz"[axis]) + " of the eyelets in the body" + of, "mm",
+            kMilli * cable.path_m.row(axis).tail(cable.path_m.cols() - 1).mean());
       }
       const auto drive = std::find_if(drives.begin(), drives.end(),
                                       [&](const auto& one) { return one.cable == cable.name; });

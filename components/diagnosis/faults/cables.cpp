@@ -153,6 +153,7 @@ void MakeCableRouting(const CatalogueInputs& inputs, std::vector<FaultModelPtr>*
     faults->push_back(
         std::make_unique<CableRouting>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
+  MakeCableGuides(inputs, faults);
 }
 
 namespace {

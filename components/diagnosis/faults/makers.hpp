@@ -33,6 +33,7 @@ void MakeCableGain(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* fa
 void MakeCableOffset(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeBacklash(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeCableRouting(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeCableGuides(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeSwappedCables(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeDriveCoupling(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeLag(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
