@@ -235,7 +235,7 @@ void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
   if (result->interrupted) result->reason = "Interrupted, a partial report. " + result->reason;
   DescribeCauses(observed_, *fitter_, robot_, selection_, result);
   DescribeRivals(*hypotheses_, selection_, result);
-  if (!result->interrupted) DescribeLimits(*hypotheses_, selection_.null_model, result);
+  if (!result->interrupted) DescribeLimits(*hypotheses_, selection_, result);
   result->residual_forces = FindResidualForces(observed_, *hypotheses_, selection_);
   result->identities = Identities(observed_);
 }

@@ -9,7 +9,6 @@
 
 #include "components/diagnosis/inference/forward_selection.hpp"
 #include "components/diagnosis/inference/linear_comparison.hpp"
-#include "components/diagnosis/inference/simulated_healthy.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
@@ -39,20 +38,20 @@ void AddSize(const HypothesisSet& hypotheses, const SmallestSize& size, Diagnosi
 
 }  // namespace
 
-void DescribeLimits(const HypothesisSet& hypotheses, const Fit& null_model,
+void DescribeLimits(const HypothesisSet& hypotheses, const Selection& selection,
                     DiagnosisResult* result) {
+  const Fit& null_model = selection.null_model;
   if (null_model.model.y.size() == 0) return;
   const Eigen::MatrixXd H = null_model.model.All().H;
   const LinearComparison comparison(hypotheses, H,
                                     hypotheses.PriorWith({}, null_model.posterior.scale));
   for (const SmallestSize& size :
-       FindSmallestSizes(hypotheses, comparison, H, kSelectionTuning.clear_evidence,
+       FindSmallestSizes(hypotheses, comparison, H, selection.clear_evidence,
                          kSelectionTuning.least_tolerances)) {
     AddSize(hypotheses, size, result);
   }
-  result->simulated_healthy =
-      SimulateHealthyRobots(hypotheses, comparison, null_model, kSelectionTuning.clear_evidence,
-                            kSelectionTuning.least_tolerances);
+  result->simulated_healthy = selection.simulated_healthy;
+  result->clear_evidence = selection.clear_evidence;
   if (null_model.posterior.scale.size() != kDiscrepancyGroups) return;
   result->cable_discrepancy =
       null_model.posterior.scale[static_cast<Eigen::Index>(DiscrepancyGroup::kCables)];

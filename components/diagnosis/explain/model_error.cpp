@@ -127,10 +127,6 @@ struct Sums {
   int samples = 0;
 };
 
-/// Parameters with these causes, of each recording their own or one for all (ResidualsOf).
-using Parameters = std::vector<Eigen::VectorXd>(const HypothesisSet&, const Fit&,
-                                                const std::vector<int>& causes);
-
 /// As all other recordings have them.
 std::vector<Eigen::VectorXd> LeftOut(const HypothesisSet& hypotheses, const Fit& fit,
                                      const std::vector<int>& causes) {
@@ -140,44 +136,6 @@ std::vector<Eigen::VectorXd> LeftOut(const HypothesisSet& hypotheses, const Fit&
     z.push_back(hypotheses.InferWithin(fit.model.AllBut(r), causes, scale).mean);
   }
   return z;
-}
-
-std::vector<Eigen::VectorXd> AsFitted(const HypothesisSet& hypotheses, const Fit& fit,
-                                      const std::vector<int>& causes) {
-  return {hypotheses.InferWithin(fit.model.All(), causes).mean};
-}
-
-double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
-                      const Selection& selection, int cause, const Parameters& parameters) {
-  const Fit& best = selection.best;
-  const Fit& null_model = selection.null_model;
-  const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
-    return ResidualsOf(observed, hypotheses, fit, parameters(hypotheses, fit, causes));
-  };
-  std::vector<int> others = best.faults;
-  std::erase(others, cause);
-  const Residuals null_model_m = left_m(null_model, null_model.faults);
-  // The only one is far from none: the nominal robot's own fit knows better than a linear model.
-  const Residuals without_m = others.empty() ? null_model_m : left_m(best, others);
-  const Residuals with_m = left_m(best, best.faults);
-  std::vector<Squares> of_null_model(observed.recordings.size());
-  std::vector<Squares> without(of_null_model), with(of_null_model), noise(of_null_model);
-  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-    if (!null_model.simulation.samples[s].status.ok()) continue;
-    const auto r = static_cast<std::size_t>(observed.samples[s].recording);
-    of_null_model[r].Add(null_model_m[s]);
-    without[r].Add(without_m[s]);
-    with[r].Add(with_m[s]);
-    noise[r].Add(Noise_m(observed, s));
-  }
-  double excess_m2 = 0.0;
-  double back_m2 = 0.0;
-  for (std::size_t r = 0; r < noise.size(); ++r) {
-    const double floor_m2 = std::max(noise[r].sum_m2, with[r].sum_m2);
-    excess_m2 += std::max(0.0, of_null_model[r].sum_m2 - noise[r].sum_m2);
-    back_m2 += std::max(0.0, without[r].sum_m2 - floor_m2);
-  }
-  return excess_m2 > 0.0 ? std::min(back_m2 / excess_m2, 1.0) : 0.0;
 }
 
 /// Recordings are drawn again, with replacement, as the parts of an experiment that are
@@ -229,10 +187,18 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
 
 }  // namespace
 
-double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
-                      const Selection& selection, int cause) {
-  return std::max(ExplainedShare(observed, hypotheses, selection, cause, AsFitted),
-                  ExplainedShare(observed, hypotheses, selection, cause, LeftOut));
+double ExplainedShare(const HypothesisSet& hypotheses, const Selection& selection, int cause) {
+  const Fit& best = selection.best;
+  std::vector<int> others = best.faults;
+  std::erase(others, cause);
+  const double with = best.posterior.misfit;
+  const double null_model = selection.null_model.posterior.misfit;
+  // The only one is far from none: the nominal robot's own fit knows better than a linear model.
+  const double without =
+      others.empty() ? null_model : hypotheses.InferWithin(best.model.All(), others).misfit;
+  const double noise = std::min(with, static_cast<double>(best.model.y.size()));
+  if (!(null_model > noise)) return 0.0;
+  return std::clamp((without - with) / (null_model - noise), 0.0, 1.0);
 }
 
 void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBody& body,

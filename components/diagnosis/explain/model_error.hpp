@@ -16,12 +16,9 @@ void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBo
                         const HypothesisSet& hypotheses, const Fit& as_built,
                         const Selection& selection, DiagnosisResult* result);
 
-/// Share of the squares beyond the noise, as a robot within its tolerances leaves them in
-/// recordings that have any, that would come back without one of the named causes, the others and
-/// the tolerances fitted again: in what was fitted, or in recordings left out, where it is more. In
-/// what they are fitted to tolerances take up most of what a small cause does; a cause that one
-/// recording alone shows appears there.
-double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
-                      const Selection& selection, int cause);
+/// Share of the null model's misfit beyond the noise that would come back without one of the named
+/// causes, the others and the tolerances fitted again. The misfit counts residuals and tolerances,
+/// each in its standard deviations: what tolerances take up far beyond their size is not explained.
+double ExplainedShare(const HypothesisSet& hypotheses, const Selection& selection, int cause);
 
 }  // namespace palpate::diagnosis

@@ -101,7 +101,7 @@ void DescribeCauses(const ObservedExperiment& observed, const Fitter& fitter,
   for (const Choice& choice : selection.named) {
     NamedCause named = Describe(observed, fitter, robot, selection.best, further,
                                 result->other_probability, choice);
-    named.explained_share = ExplainedShare(observed, fitter.hypotheses(), selection, choice.fault);
+    named.explained_share = ExplainedShare(fitter.hypotheses(), selection, choice.fault);
     result->causes.push_back(std::move(named));
   }
 }

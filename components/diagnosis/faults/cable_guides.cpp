@@ -60,8 +60,8 @@ class CableGuides final : public FaultModel {
     Eigen::Vector3d before_m = cable.pull_point_m;
     Eigen::Vector3d before_along = Eigen::Vector3d::Zero();
     for (std::size_t e = 0; e < rest_m_.size(); ++e) {
-      fem::InterpolationWeights along = robot::EyeletWeightsAlong(
-          *at.hypothesis.places, rest_m_[e] + z, radius_m_, direction);
+      fem::InterpolationWeights along =
+          robot::EyeletWeightsAlong(*at.hypothesis.places, rest_m_[e] + z, radius_m_, direction);
       const Eigen::Vector3d here_m = cable.eyelets[e].weights.Position(at.hypothesis.assembled_m);
       const Eigen::Vector3d here_along = along.Position(at.hypothesis.assembled_m);
       longer += (here_m - before_m).normalized().dot(here_along - before_along);

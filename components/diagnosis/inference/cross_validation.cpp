@@ -39,6 +39,17 @@ CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& 
   return out;
 }
 
+namespace {
+
+/// Chi-squared beyond the noise of so many rows; at least its scatter.
+double Beyond(double chi_squared, Eigen::Index rows) {
+  const auto noise = static_cast<double>(rows);
+  return std::max(chi_squared - noise,
+                  kCrossValidationTuning.scatter_sigmas * std::sqrt(2.0 * noise));
+}
+
+}  // namespace
+
 CrossValidationGain Compare(const CrossValidation& before, const CrossValidation& after) {
   CrossValidationGain gain;
   double chi_before = 0.0;
@@ -48,12 +59,17 @@ CrossValidationGain Compare(const CrossValidation& before, const CrossValidation
     chi_before += before.chi_squared[r];
     chi_after += after.chi_squared[r];
   }
-  const double noise = static_cast<double>(before.residual.size());
-  const double scatter = kCrossValidationTuning.scatter_sigmas * std::sqrt(2.0 * noise);
-  const double beyond = std::max(chi_before - noise, scatter);
-  gain.relative = (chi_before - chi_after) / beyond;
+  gain.relative = (chi_before - chi_after) / Beyond(chi_before, before.residual.size());
   gain.clear = gain.relative > kCrossValidationTuning.least_share && gain.ln_gain > 0.0;
   return gain;
+}
+
+double FittedShare(const Fit& before, const Fit& after) {
+  const auto chi_squared = [](const Fit& fit) {
+    return (fit.model.y - fit.model.J * fit.posterior.mean).squaredNorm();
+  };
+  const double chi_before = chi_squared(before);
+  return (chi_before - chi_squared(after)) / Beyond(chi_before, before.model.y.size());
 }
 
 }  // namespace palpate::diagnosis

@@ -30,4 +30,8 @@ struct CrossValidationGain {
 };
 CrossValidationGain Compare(const CrossValidation& before, const CrossValidation& after);
 
+/// The same share of what was fitted: of the misfit of `before` beyond the noise that `after` has
+/// not. Tolerances do not count: each fit has its own.
+double FittedShare(const Fit& before, const Fit& after);
+
 }  // namespace palpate::diagnosis

@@ -287,11 +287,10 @@ void ForwardSelectionStep::SimulateLikely(const CauseName& name) {
 bool ForwardSelectionStep::AreOthersPromising() const {
   const std::size_t next = fits_.size();
   if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
-  if (candidates_[next].ln_bayes_factor < kSelectionTuning.clear_evidence) return false;
+  if (candidates_[next].ln_bayes_factor < clear_evidence_) return false;
   for (std::size_t k = 0; k < fits_.size(); ++k) {
     const Candidate& tried = candidates_[k];
-    const bool can_be =
-        !tried.ruled_out && tried.ln_bayes_factor >= kSelectionTuning.clear_evidence;
+    const bool can_be = !tried.ruled_out && tried.ln_bayes_factor >= clear_evidence_;
     if (can_be && !PromisesAnotherMoreThan(k)) return false;
   }
   return true;
@@ -406,10 +405,9 @@ void ForwardSelectionStep::SortRefined() {
 
 bool ForwardSelectionStep::IsClear(const CrossValidation& before, std::size_t k) {
   Candidate& candidate = candidates_[k];
-  if (candidate.ln_bayes_factor >= kSelectionTuning.clear_evidence) Complete(k);
-  if (candidate.ln_bayes_factor < kSelectionTuning.clear_evidence) {
-    candidate.why_not = "the evidence for it is below ln BF 10 (ln BF " +
-                        FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+  if (candidate.ln_bayes_factor >= clear_evidence_) Complete(k);
+  if (candidate.ln_bayes_factor < clear_evidence_) {
+    candidate.why_not = BelowClearEvidence(k);
     return false;
   }
   candidate.why_not = WhyNoFault(fitter_.hypotheses(), fits_[k].posterior, candidate.fault);
@@ -428,9 +426,22 @@ bool ForwardSelectionStep::IsClear(const CrossValidation& before, std::size_t k)
                         " % of the error beyond the noise)";
     return false;
   }
+  const double explained =
+      std::max(choice.cross_validation.relative, FittedShare(before_, fits_[k]));
+  if (explained < kSelectionTuning.least_explained) {
+    candidate.why_not = "it explains next to nothing of the error beyond the noise (" +
+                        FormatNumber(std::round(100.0 * explained)) + " %)";
+    return false;
+  }
   choice.probability = Probability(k);
   choice_ = std::move(choice);
   return true;
+}
+
+std::string ForwardSelectionStep::BelowClearEvidence(std::size_t k) const {
+  const auto rounded = [](double value) { return FormatNumber(std::round(10.0 * value) / 10.0); };
+  return "the evidence for it is below ln BF " + rounded(clear_evidence_) + " (ln BF " +
+         rounded(candidates_[k].ln_bayes_factor) + ")";
 }
 
 double ForwardSelectionStep::Probability(std::size_t k) const {
@@ -491,10 +502,7 @@ void ForwardSelectionStep::Explain() {
       candidate.why_not = "another fault that promises more was not simulated";
       continue;
     }
-    candidate.why_not =
-        first >= 0 ? "another fault explains more"
-                   : "the evidence for it is below ln BF 10 (ln BF " +
-                         FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+    candidate.why_not = first >= 0 ? "another fault explains more" : BelowClearEvidence(k);
   }
 }
 

@@ -17,7 +17,7 @@ namespace palpate::diagnosis {
 /// Thresholds of forward selection and backward elimination. Higher evidence accuses fewer nominal
 /// robots and misses more small faults; more refinements cost simulations.
 struct SelectionTuning {
-  double clear_evidence = 10.0;             ///< ln BF that a fault must have to be named
+  double clear_evidence = 10.0;             ///< least ln BF that a fault must have to be named
   double indistinguishable_evidence = 3.0;  ///< |ln BF| below which faults are not identifiable
   double same_effect = 0.95;        ///< canonical correlation of faults with the same effect
   double least_tolerances = 3.0;    ///< size of a fault that has a tolerance
@@ -29,6 +29,7 @@ struct SelectionTuning {
   int most_rounds = 2;              ///< rounds of simulated candidates
   std::size_t most_starts = 3;      ///< places of one fault that are simulated
   int rounds_to_compare = 3;        ///< simulations of each before the best goes on
+  double least_explained = 0.05;    ///< share of the misfit beyond the noise, fitted or left out
   double seen_chi_squared = 5.0;    ///< half chi-squared by which a recording shows a fault
   double exchange_screened = -8.0;  ///< ln BF of an exchange that counts in probabilities
   double exchange_refined = -3.0;   ///< ln BF of an exchange that is simulated
@@ -87,9 +88,15 @@ struct Choice {
 class ForwardSelectionStep {
  public:
   /// All must outlive it.
+  /// `clear_evidence`: ln BF that a fault must have to be named.
   ForwardSelectionStep(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before,
-                       const std::optional<CauseName>& likely)
-      : observed_(observed), fitter_(fitter), before_(before), likely_(likely) {}
+                       const std::optional<CauseName>& likely,
+                       double clear_evidence = kSelectionTuning.clear_evidence)
+      : observed_(observed),
+        fitter_(fitter),
+        before_(before),
+        likely_(likely),
+        clear_evidence_(clear_evidence) {}
   /// Whether there is one; then choice() and fit() are about it.
   bool Search();
   const Choice& choice() const { return choice_; }
@@ -127,12 +134,14 @@ class ForwardSelectionStep {
   bool KeepsTolerances(std::size_t k) const;
   /// In how many recordings the fit is clearly better with the fault.
   int SeenIn(std::size_t k) const;
+  std::string BelowClearEvidence(std::size_t k) const;
   void Explain();
 
   const ObservedExperiment& observed_;
   const Fitter& fitter_;
   const Fit& before_;
   const std::optional<CauseName>& likely_;
+  double clear_evidence_;
   Fit tried_;  ///< with the likely one; or with no faults
   std::vector<Candidate> candidates_;
   std::vector<Fit> fits_;  ///< of the first candidates, that were refined

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "components/diagnosis/inference/backward_elimination.hpp"
+#include "components/diagnosis/inference/linear_comparison.hpp"
+#include "components/diagnosis/inference/simulated_healthy.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
@@ -25,6 +27,23 @@ bool IsIndistinguishable(const Fitter& fitter, const Selection& selection, const
            selection.best.posterior.ln_evidence -
                IndistinguishableWithin(fitter.hypotheses(), named, rival);
   });
+}
+
+/// What healthy robots of this kind look like, and the evidence that tells a fault from them.
+void SetClearEvidence(const HypothesisSet& hypotheses, Selection* selection) {
+  const Fit& null_model = selection->null_model;
+  if (null_model.model.y.size() == 0) return;
+  const LinearComparison comparison(hypotheses, null_model.model.All().H,
+                                    hypotheses.PriorWith({}, null_model.posterior.scale));
+  const auto simulate = [&] {
+    selection->simulated_healthy =
+        SimulateHealthyRobots(hypotheses, comparison, null_model, selection->clear_evidence,
+                              kSelectionTuning.least_tolerances);
+  };
+  simulate();
+  if (selection->simulated_healthy.ln_bayes_factor_98 <= selection->clear_evidence) return;
+  selection->clear_evidence = selection->simulated_healthy.ln_bayes_factor_98;
+  simulate();
 }
 
 /// Canonical correlations of the most probable candidates.
@@ -60,12 +79,13 @@ Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
   Selection selection;
   report(1, steps, kFittingTheNullModel);
   selection.null_model = likely ? as_built : rematched(fitter.Complete(as_built));
+  SetClearEvidence(fitter.hypotheses(), &selection);
   selection.best = selection.null_model;
   for (int number = 0; number < most; ++number) {
     if (number > 0 && fitter.IsOutOfTime()) break;
     report(2 + number, steps,
            number == 0 ? "forward selection: first fault" : "forward selection: further fault");
-    ForwardSelectionStep next(observed, fitter, selection.best, likely);
+    ForwardSelectionStep next(observed, fitter, selection.best, likely, selection.clear_evidence);
     const bool found = next.Search();
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;
@@ -77,7 +97,7 @@ Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
       break;
     }
     selection.best = rematched(next.fit());
-    if (number > 0) EliminateBackward(fitter, kSelectionTuning.clear_evidence, &selection);
+    if (number > 0) EliminateBackward(fitter, selection.clear_evidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
   selection.complete = !fitter.IsOutOfTime();  // else fits may have ended early, too

@@ -11,6 +11,7 @@
 #include "components/diagnosis/inference/fitter.hpp"
 #include "components/diagnosis/inference/forward_selection.hpp"
 #include "components/diagnosis/inference/goodness_of_fit.hpp"
+#include "components/diagnosis/vocabulary/diagnosis_result.hpp"
 
 namespace palpate::diagnosis {
 
@@ -21,6 +22,10 @@ struct Selection {
   std::vector<Choice> named;                 ///< as they were found
   std::vector<Candidate> candidates;         ///< for the first place, the most probable first
   std::vector<Candidate> indistinguishable;  ///< that fit as well as what was named
+  SimulatedHealthy simulated_healthy;        ///< of the null model
+  /// ln BF that a fault must have to be named: the tuning's, or more where more than 2 % of
+  /// simulated healthy robots have a fault of that.
+  double clear_evidence = kSelectionTuning.clear_evidence;
   bool complete = true;                   ///< else the fitter's time was over before the search was
   GoodnessOfFit goodness_of_fit;          ///< of `best`
   std::vector<int> compared;              ///< the faults of the most probable candidates

@@ -158,6 +158,7 @@ std::string FormatVerdict(const DiagnosisResult& result) {
                      {"other_probability", Number(result.other_probability)},
                      {"what_is_left", ToJson(result.residual_test)},
                      {"simulated_healthy", ToJson(result.simulated_healthy)},
+                     {"clear_evidence", Number(result.clear_evidence)},
                      {"model_discrepancy",
                       {{"cables", Number(result.cable_discrepancy)},
                        {"stiffness", Number(result.stiffness_discrepancy)}}},

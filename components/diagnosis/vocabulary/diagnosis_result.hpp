@@ -168,6 +168,8 @@ struct DiagnosisResult {
   ResidualTest residual_test;
   std::vector<FindableSize> findable;
   SimulatedHealthy simulated_healthy;
+  /// ln BF that a fault must have to be named here; NaN: none was looked for.
+  double clear_evidence = std::numeric_limits<double>::quiet_NaN();
   /// Inferred size of the model discrepancy, as a share of the largest command, and of the modulus;
   /// NaN: it has none.
   double cable_discrepancy = std::numeric_limits<double>::quiet_NaN();

@@ -92,7 +92,7 @@ std::vector<std::string> SeenIn(const DiagnosisResult& result) {
 }
 
 std::string Explained(const DiagnosisResult& result) {
-  const std::string of = " of the excess residual";
+  const std::string of = " of the misfit beyond noise and tolerances";
   if (result.causes.size() == 1) return PercentText(result.causes[0].explained_share) + of;
   std::vector<std::string> texts;
   for (const NamedCause& cause : result.causes) {
@@ -186,7 +186,8 @@ std::string HealthyText(const DiagnosisResult& result) {
   return "A healthy robot would be accused in " +
          std::string(healthy.accused > 0 ? "" : "less than ") + NumberText(100.0 * share, 2) +
          " % of cases (" + std::to_string(healthy.accused) + " of " +
-         std::to_string(healthy.drawn) + " simulated)";
+         std::to_string(healthy.drawn) + " simulated), as a cause needs ln BF " +
+         NumberText(result.clear_evidence, 2);
 }
 
 std::string WordsFor(const CauseName& name, const DiagnosisResult& result) {

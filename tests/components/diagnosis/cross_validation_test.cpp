@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "components/diagnosis/inference/forward_selection.hpp"
 #include "libs/linalg/cholesky.hpp"
 #include "tests/components/diagnosis/toy_faults.hpp"
 
@@ -47,6 +48,18 @@ TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
     EXPECT_NEAR(out.ln_predicted[k], ln_p, 1e-8 * std::abs(ln_p));
     EXPECT_TRUE(out.residual.segment(36 * r, 36).isApprox(off, 1e-8));
   }
+}
+
+TEST(FittedShare, IsLargeForARightFaultAndNextToNothingForAWrongOne) {
+  const HypothesisSet hypotheses = ToyBook();
+  ToyData data(hypotheses, kHeldOutSeed);
+  const Eigen::VectorXd healthy = data.Draw(hypotheses.PriorWith({}));
+  const Eigen::VectorXd faulty = healthy + 6.0 * data.J().col(hypotheses.first(2));
+  const auto share = [&](const Eigen::VectorXd& y, int fault) {
+    return FittedShare(data.FitTo(hypotheses, y, {}), data.FitTo(hypotheses, y, {fault}));
+  };
+  EXPECT_GT(share(faulty, 2), 0.9);
+  EXPECT_LT(share(healthy, 3), kSelectionTuning.least_explained) << "seed " << kHeldOutSeed;
 }
 
 TEST(LeaveOneOut, ARightFaultPredictsBetterAndAWrongOneDoesNot) {

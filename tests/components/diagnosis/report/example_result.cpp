@@ -259,6 +259,7 @@ DiagnosisResult FrictionExample() {
       {{"cable_routing", {"cable:north"}}, "place of a fixed eyelet", "dx_m", 0.0011},
       {{"rest_twist", {"body"}}, "a twist of the body", "rate_rad_m", kNaN}};
   result.simulated_healthy = {.drawn = 200, .accused = 4, .ln_bayes_factor_98 = 3.1};
+  result.clear_evidence = 10.0;
   result.no_fault_probability = 1e-6;
   result.other_probability = 0.006;
   result.experiments = {{"ramp of cable north to 12 mm, twice as slowly",

@@ -47,6 +47,7 @@ TEST(VerdictJson, HoldsWhatArchitectureShows) {
   EXPECT_EQ(cause["in_file"][0]["before"], 0.0);
   EXPECT_EQ(cause["in_file"][0]["after"], 0.2134);
   EXPECT_EQ(verdict["simulated_healthy"]["accused"], 4);
+  EXPECT_EQ(verdict["clear_evidence"], 10.0);
   ASSERT_EQ(verdict["smallest_findable"].size(), 3U);
   EXPECT_EQ(verdict["smallest_findable"][0]["id"], "cable_friction");
   EXPECT_EQ(verdict["smallest_findable"][0]["value"], 0.061);

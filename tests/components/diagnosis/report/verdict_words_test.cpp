@@ -51,7 +51,7 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   EXPECT_EQ(VerdictHeadline(FrictionExample()),
             "Friction of cable north, mu = 0.213 \u00B1 0.019 (95 %), p = 0.97.");
   const std::string all = VerdictParagraph(FrictionExample());
-  EXPECT_THAT(all, HasSubstr("Explains: 83 % of the excess residual."));
+  EXPECT_THAT(all, HasSubstr("Explains: 83 % of the misfit beyond noise and tolerances."));
   EXPECT_THAT(all, HasSubstr("Left-out error, without and with: 0.52"));
   EXPECT_THAT(all, HasSubstr(" mm (noise 0.300 mm), a gain of 0."));
   EXPECT_THAT(
@@ -73,8 +73,10 @@ TEST(VerdictWords, SayTheValueInTheTermsOfTheFile) {
 TEST(VerdictWords, BoundTheShareOfHealthyRobotsWhereNoneWasAccused) {
   DiagnosisResult result = FrictionExample();
   result.simulated_healthy.accused = 0;
-  EXPECT_EQ(HealthyText(result),
-            "A healthy robot would be accused in less than 1.5 % of cases (0 of 200 simulated)");
+  EXPECT_EQ(
+      HealthyText(result),
+      "A healthy robot would be accused in less than 1.5 % of cases (0 of 200 simulated), as a "
+      "cause needs ln BF 10");
   result.simulated_healthy.drawn = 0;
   EXPECT_EQ(HealthyText(result), "");
 }
