@@ -9,6 +9,7 @@
 #include "libs/core/text.hpp"
 #include "libs/experiment/capture/exports.hpp"
 #include "libs/experiment/capture/wide_markers.hpp"
+#include "libs/experiment/table_text.hpp"
 
 namespace palpate::experiment {
 
@@ -55,6 +56,13 @@ Row NamesOf(const std::map<std::string, Row>& header, bool bodies, const Capture
   return names;
 }
 
+/// Whether the line names columns. Numbers may have a decimal comma.
+bool HoldsTitles(const CaptureText& text) {
+  const std::string_view first = text.Cell(0);
+  if (first.empty()) return LowerCase(text.Cell(1)) == "x";
+  return std::isalpha(static_cast<unsigned char>(first.front())) != 0 && !StandsForMissing(first);
+}
+
 /// Columns before the first coordinate: frame and time, or none. A line of column titles says it;
 /// without one the count of numbers does.
 std::size_t LeadOf(const CaptureText& text, bool titles, std::size_t numbers) {
@@ -85,9 +93,7 @@ CapturedMarkers ReadQualisysTsv(CaptureText& text) {
                      "FREQUENCY '" + Excerpt(frequency) + "' is no frame rate");
   }
   const std::size_t numbers_each = bodies ? kNumbersOfBody : kNumbersOfMarker;
-  double value = 0.0;
-  const bool titles =
-      !text.Cell(0).empty() ? !ParseFinite(text.Cell(0), &value) : LowerCase(text.Cell(1)) == "x";
+  const bool titles = HoldsTitles(text);
   const std::size_t lead = LeadOf(text, titles, numbers_each * names.size());
   WideMarkers markers(text, {.metres_per_unit = kMillimetre_m, .zeros_are_gaps = true});
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -310,11 +310,12 @@ def nexus():
     return ("\n".join(rows) + "\n").encode()
 
 
-def qualisys():
+def qualisys(comma=False):
     rows = [f"NO_OF_FRAMES\t{FRAMES}", "NO_OF_CAMERAS\t8", "NO_OF_MARKERS\t2",
             f"FREQUENCY\t{RATE_HZ}", "DESCRIPTION\t--", "TIME_STAMP\t2026-01-01, 00:00:00.000\t1.5",
             "DATA_INCLUDED\t3D", "EVENT\tpress\t4\t0.03", "MARKER_NAMES\ttip\tmid"]
-    rows += [cells_of(f, 1.0, "0.000", "\t") for f in range(FRAMES)]
+    frames = [cells_of(f, 1.0, "0.000", "\t") for f in range(FRAMES)]
+    rows += [frame.replace(".", ",") if comma else frame for frame in frames]
     return ("\r\n".join(rows) + "\r\n").encode()
 
 
@@ -427,6 +428,7 @@ CAPTURES = {
     "intel.c3d": c3d(), "dec.c3d": c3d(85), "sgi.c3d": c3d(86), "dec_integers.c3d": c3d(85, False),
     "sgi_integers.c3d": c3d(86, False), "nan.c3d": c3d(gap="nan"), "zeros.c3d": c3d(gap="zero"),
     "motive.csv": motive(), "nexus.csv": nexus(), "qualisys.tsv": qualisys(),
+    "qualisys_commas.tsv": qualisys(comma=True),
     "qualisys_bodies.tsv": qualisys_bodies(), "cortex.trc": trc(), "table.csv": table(),
     "excel.csv": table(";", comma=True, missing="", eol="\r\n"), "tabs.tsv": table("\t"),
     "unicode.txt": table("\t", missing="#N/A", encoding="utf-16"),

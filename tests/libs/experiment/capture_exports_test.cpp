@@ -160,6 +160,16 @@ TEST(CaptureExports, QualisysEventsAreNoFrames) {
               ElementsAre("tip", "base"));
 }
 
+TEST(CaptureExports, QualisysNumbersMayHaveDecimalCommas) {
+  const CapturedMarkers captured =
+      Read("qtm.tsv", kQualisysHead + "1,5\t2\t3\t4\t5\t6\n2,5\t2\t3\t4\t5\t6\n");
+  ASSERT_EQ(captured.tracks.frames.size(), 2u) << "the first line is no line of titles";
+  EXPECT_TRUE(At_mm(captured, 0, 0).isApprox(Eigen::Vector3d(1.5, 2, 3)));
+  EXPECT_EQ(Read("gap.tsv", kQualisysHead + "NaN\tNaN\tNaN\t4\t5\t6\n1\t2\t3\t4\t5\t6\n")
+                .tracks.frames.size(),
+            2u);
+}
+
 TEST(CaptureExports, AJumpToTheOriginIsAGap) {
   const std::string head =
       "PathFileType\t4\nDataRate\tNumMarkers\tUnits\n100\t2\tmm\nFrame#\tTime\ttip\t\t\tbase\n"
