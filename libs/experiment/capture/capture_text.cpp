@@ -73,9 +73,7 @@ std::optional<double> CaptureText::Number(std::size_t column) const {
   double value = 0.0;
   if (ParseFinite(cell, &value)) return value;
   if (StandsForMissing(cell)) return std::nullopt;
-  std::string with_point(cell);
-  std::replace(with_point.begin(), with_point.end(), ',', '.');
-  if (separator_ == ',' || !ParseFinite(with_point, &value)) {
+  if (separator_ == ',' || !ParseWithPointOrComma(cell, &value)) {
     Refuse(column, "'" + Excerpt(cell) + "' is not a finite number");
   }
   return value;
@@ -98,6 +96,12 @@ std::string LowerCase(std::string_view text) {
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return lower;
+}
+
+bool ParseWithPointOrComma(std::string_view text, double* value) {
+  std::string with_point(text);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return ParseFinite(with_point, value);
 }
 
 std::optional<double> MetresPerUnit(std::string_view unit) {

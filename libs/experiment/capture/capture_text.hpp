@@ -56,6 +56,9 @@ class CaptureText {
 /// `text` in lower case.
 std::string LowerCase(std::string_view text);
 
+/// The whole of `text` as a finite number, with a decimal point or a decimal comma.
+bool ParseWithPointOrComma(std::string_view text, double* value);
+
 /// Metres in "mm", "Millimeters", "cm", "m", ...; nullopt for any other word.
 std::optional<double> MetresPerUnit(std::string_view unit);
 

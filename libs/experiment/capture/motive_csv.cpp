@@ -103,7 +103,7 @@ CapturedMarkers ReadMotiveCsv(CaptureText& text) {
     if (!text.IsBlank()) markers.AddFrame(text.Require(1, "the time"));
   }
   double rate_Hz = 0.0;
-  if (!ParseFinite(header.Setting("export frame rate"), &rate_Hz)) rate_Hz = 0.0;
+  if (!ParseWithPointOrComma(header.Setting("export frame rate"), &rate_Hz)) rate_Hz = 0.0;
   CapturedMarkers captured = markers.Take(rate_Hz);
   if (bodies > 0) notes.push_back(std::to_string(bodies) + " rigid bodies are left out");
   notes.emplace_back(

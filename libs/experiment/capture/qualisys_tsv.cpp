@@ -88,7 +88,7 @@ CapturedMarkers ReadQualisysTsv(CaptureText& text) {
   const Row names = NamesOf(header, bodies, text);
   double rate_Hz = 0.0;
   const std::string frequency = First(header, "FREQUENCY");
-  if (!ParseFinite(frequency, &rate_Hz) || !(rate_Hz > 0.0)) {
+  if (!ParseWithPointOrComma(frequency, &rate_Hz) || !(rate_Hz > 0.0)) {
     throw InputError(SourceLocation{text.file()},
                      "FREQUENCY '" + Excerpt(frequency) + "' is no frame rate");
   }

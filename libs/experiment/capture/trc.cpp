@@ -45,7 +45,7 @@ CapturedMarkers ReadTrc(CaptureText& text) {
   std::map<std::string, std::string> settings;
   for (std::size_t i = 0; i < keys.size(); ++i) settings[LowerCase(keys[i])] = text.Cell(i);
   double rate_Hz = 0.0;
-  if (!ParseFinite(settings["datarate"], &rate_Hz) || !(rate_Hz > 0.0)) {
+  if (!ParseWithPointOrComma(settings["datarate"], &rate_Hz) || !(rate_Hz > 0.0)) {
     text.Refuse(0, keys.size() < 2
                        ? "a TRC file has tabs between its columns"
                        : "DataRate '" + Excerpt(settings["datarate"]) + "' is no frame rate");

@@ -9,12 +9,20 @@
 
 namespace palpate::fem::mesh_io {
 
-void GmshReader::ReadNodes2() {
+/// $ParametricNodes (-save_parametric) have behind the position the entity that they lie on, and
+/// their parameters on a curve or a surface.
+void GmshReader::ReadNodes2(bool parametric) {
   const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of nodes");
   scanner_.Line("the nodes");
   CheckRoom(count, sizeof(int32_t) + 3 * sizeof(double), "nodes");
   for (int64_t k = 0; k < count; ++k) {
     nodes_.push_back(ReadPosition(scanner_.Integer(tag_type_, 1, kMaxCount, "a node tag")));
+    if (!parametric) continue;
+    const int64_t dimension = scanner_.Integer(ScalarType::kInt32, 0, 3, "a dimension");
+    ReadInt("an entity tag");
+    for (int64_t p = 0; dimension < 3 && p < dimension; ++p) {
+      scanner_.Real(ScalarType::kFloat64, "a parameter of a node");
+    }
   }
 }
 

@@ -75,9 +75,9 @@ void GmshReader::ReadSection(std::string_view name) {
     ReadEntities4();
   } else if (name == "PartitionedEntities" && version_ != Version::k2) {
     ReadPartitionedEntities4();
-  } else if (name == "Nodes") {
+  } else if (name == "Nodes" || (name == "ParametricNodes" && version_ == Version::k2)) {
     if (nodes_read_) scanner_.Fail("a second section $Nodes");
-    version_ == Version::k2 ? ReadNodes2() : ReadNodes4();
+    version_ == Version::k2 ? ReadNodes2(name != "Nodes") : ReadNodes4();
     FinishNodes();
   } else if (name == "Elements") {
     if (elements_read_ || !nodes_read_) scanner_.Fail("$Elements must follow $Nodes, once");

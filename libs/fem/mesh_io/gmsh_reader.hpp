@@ -37,7 +37,7 @@ class GmshReader {
   void ReadSection(std::string_view name);
   void ReadPhysicalNames();
 
-  void ReadNodes2();
+  void ReadNodes2(bool parametric);
   void ReadElements2();
   int64_t ReadElementBlock2(int64_t at_most);
 

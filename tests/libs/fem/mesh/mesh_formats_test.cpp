@@ -262,6 +262,16 @@ TEST(MeshFormats, WhatAbaqusWritesElsewhereIsRefused) {
   EXPECT_THAT(with("*NGEN\n1, 5"), HasSubstr("*NGEN is not read"));
 }
 
+TEST(MeshFormats, NodesOfGmsh2MayHaveParameters) {
+  const TetMesh mesh =
+      ReadBytes({"m.msh",
+                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n4\n1 0 0 0 0 1\n"
+                 "2 1 0 0 1 4 0.5\n3 0 1 0 2 3 0.1 0.2\n4 0 0 1 3 1\n$EndParametricNodes\n"
+                 "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n"});
+  EXPECT_EQ(mesh.nodes_m.col(2), Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(mesh.nodes_m.col(3), Eigen::Vector3d(0, 0, 1));
+}
+
 TEST(MeshFormats, CommentsMayStandBeforeGmshsFormat) {
   const TetMesh mesh = CubeMesh(1);
   const std::string bytes = "$Comments\nmade by hand\n$EndComments\n" + test::AsciiGmsh22(mesh);
