@@ -10,6 +10,7 @@ export class ProcessesPanel {
   #client = null;
   #topics_open = false;
   #nobody = '';
+  #paused = false;  // a recording that is held says nothing, and nothing is wrong
 
   constructor(feed) {
     this.feed = feed;
@@ -18,6 +19,7 @@ export class ProcessesPanel {
     this.body.addEventListener('toggle', ({ target }) => (this.#topics_open = target.open), true);
     feed.on('hello', ({ source }) => (this.#nobody = source === 'experiment'
       ? 'An experiment is shown; no process runs.' : 'No process has reported yet.'));
+    feed.on('player', ({ paused }) => (this.#paused = paused));
     feed.on('health', (message) => {
       this.#health = message;
       this.#show();
@@ -49,7 +51,7 @@ export class ProcessesPanel {
   }
 
   #process(it) {
-    const state = it.silent ? 'silent' : it.status === 'ok' ? 'ok' : 'trouble';
+    const state = it.silent && !this.#paused ? 'silent' : it.status === 'ok' ? 'ok' : 'trouble';
     const lost = (it.dropped ?? 0) + (it.refused ?? 0);
     const row = element('tr', { 'data-state': state, 'data-testid': 'process' },
       element('th', { scope: 'row', title: `up ${duration(it.uptime_s)}` },

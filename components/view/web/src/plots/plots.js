@@ -8,6 +8,7 @@ import { TimePlot } from './time_plot.js';
 const TRUE_LINES = 3;
 const DASH = [4, 3];
 const RATES_EVERY_MS = 500;
+const OLDEST_S = 60;
 /** Kinds whose rate is plotted, and their colours. */
 const RATES = [['forces', 'line-1'], ['robot_cloud', 'line-2'], ['color_image', 'line-3']];
 const RATE_LABELS = { forces: 'forces', robot_cloud: 'cloud', color_image: 'image' };
@@ -67,7 +68,9 @@ export class Plots {
       row[3 * COLOR_COUNT + i] = force.magnitude_N > 0 ? force.magnitude_N : null;
     });
     this.forces.push(stamp_ns, row);
-    this.latency.push(stamp_ns, [1e3 * age_s, 1e3 * latency_s]);
+    // The age of a frame that is played again means nothing.
+    const age_ms = age_s < OLDEST_S ? 1e3 * age_s : null;
+    this.latency.push(stamp_ns, [age_ms, 1e3 * latency_s]);
   }
 
   #takeRates() {
