@@ -80,8 +80,10 @@ std::filesystem::path RecordingFile(const DemoPlace& place) {
 std::unique_ptr<app::ChildProcess> StartRecorder(const DemoPlace& place) {
   std::error_code error;
   std::filesystem::remove(RecordingFile(place), error);
-  return place.Start("palpate-recorder",
-                     {"--out", RecordingFile(place).string(), "--robot", "beam"}, "recorder.log");
+  return place.Start(
+      "palpate-recorder",
+      {"--out", RecordingFile(place).string(), "--robot", "beam", "--set", "recent_s=0"},
+      "recorder.log");
 }
 
 void TellPage(const DemoPlace& place) {

@@ -32,7 +32,8 @@ ProcessPlan RecorderOf(const DemoSystem& demo) {
   for (const char* large : {"/camera/*/image_raw*", "/perception/*_cloud"}) {
     plan.arguments.insert(plan.arguments.end(), {"--exclude", large});
   }
-  plan.nice = 10;  // what it misses costs less than what it delays
+  plan.set = {"recent_s=0"};  // the whole run is recorded, so that snapshots add nothing
+  plan.nice = 10;             // what it misses costs less than what it delays
   return plan;
 }
 
