@@ -19,7 +19,10 @@ before(async () => {
   const player = { duration_s: 40, position_s: 10, rate: 1, paused: false };
   server = await startServer({ player });
 });
-afterEach(() => closePages(browser));
+afterEach(async () => {
+  server.sending = true;
+  await closePages(browser);
+});
 after(async () => {
   await browser?.close();
   await server?.stop();
@@ -46,6 +49,7 @@ for (const [width, height] of SIZES) {
       await until('a legend', async () => /grid/.test(await part(page, 'legend').textContent()));
       await until('processes', async () => (await part(page, 'process').count()) > 3);
       await until('a player', () => part(page, 'player').isVisible());
+      server.sending = false;  // a slow machine first draws what has come
       await probeSkin(page);
       await until('its force', async () =>
         /N$/.test(await part(page, 'probe-force').textContent()));
