@@ -91,6 +91,7 @@ class CableGuides final : public FaultModel {
 
 void MakeCableGuides(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
   for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    if (inputs.body.cables[c].eyelets.size() < 2) continue;  // a knot, and no channel
     faults->push_back(std::make_unique<CableGuides>(inputs.body.cables[c], static_cast<int>(c)));
   }
 }

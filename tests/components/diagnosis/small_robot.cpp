@@ -17,6 +17,7 @@ constexpr double kGuideRadius_m = 0.0015;
 void AddCable(const std::string& name, const Eigen::Matrix3Xd& path_m,
               const fem::PointLocator& locator, robot::RobotBody* body) {
   robot::BodyCable cable{name, path_m.col(0), {}, 50.0};
+  cable.guide_radius_m = kGuideRadius_m;
   for (const auto& eyelet_m : path_m.rightCols(path_m.cols() - 1).colwise()) {
     cable.eyelets.push_back(locator.EmbedBall(eyelet_m, kGuideRadius_m));
   }
