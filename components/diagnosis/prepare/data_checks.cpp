@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "libs/core/index.hpp"
@@ -17,6 +18,9 @@ namespace {
 using experiment::CableQuantity;
 using experiment::MarkerFrame;
 using experiment::Recording;
+
+/// Fewer say nothing about their order.
+constexpr std::size_t kFewestFrames = 6;
 
 /// How much a series changes from one value to the next, over how much it changes at all: near 0
 /// for a motion that is followed, 1 where neighbours have nothing to do with each other.
@@ -78,15 +82,29 @@ bool IsFrozen(const Recording& recording) {
   return pairs >= kFewest && same > kShare * pairs;
 }
 
-bool IsShuffled(const Recording& recording, const Eigen::Vector3d& sigma_m) {
+/// Variance of one sample: as stated, else what the stillest recording changes by from one frame to
+/// the next.
+double NoiseVariance_m2(const experiment::Experiment& experiment) {
+  if (experiment.markers_sigma_m) return experiment.markers_sigma_m->squaredNorm();
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (const Recording& recording : experiment.recordings) {
+    if (!recording.markers || recording.markers->frames.size() < kFewestFrames) continue;
+    const auto samples =
+        static_cast<double>(recording.markers->frames.size() * recording.markers->names.size());
+    least_m2 = std::min(least_m2, OfMarkers(recording).steps / samples);
+  }
+  return least_m2;
+}
+
+bool IsShuffled(const Recording& recording, double noise_variance_m2) {
   constexpr double kMotion = 9.0;  // of the noise's variance
   constexpr double kJumpy = 0.5;
   constexpr double kMoreThanCommands = 3.0;
-  if (!recording.actuation || recording.markers->frames.size() < 6) return false;
+  if (!recording.actuation || recording.markers->frames.size() < kFewestFrames) return false;
   const Jumpiness markers = OfMarkers(recording);
   const double noise_m2 =
       static_cast<double>(recording.markers->frames.size() * recording.markers->names.size()) *
-      sigma_m.squaredNorm();
+      noise_variance_m2;
   return markers.variance > kMotion * noise_m2 && markers.Ratio() > kJumpy &&
          markers.Ratio() > kMoreThanCommands * OfCommands(recording).Ratio();
 }
@@ -155,7 +173,6 @@ bool IsShuffled(const ObservedExperiment& observed, std::size_t recording,
   constexpr double kMotion = 9.0;  // of the noise's variance
   constexpr double kJumpy = 0.5;
   constexpr double kMoreThanCommands = 3.0;
-  constexpr std::size_t kFewestFrames = 6;
   constexpr int kFewestFeatures = 5;
   if (clouds.empty()) return false;
   const Eigen::VectorXd noise_m2 = NoiseOfFrames_m2(observed, recording);
@@ -217,6 +234,7 @@ Status CheckTables(const experiment::Experiment& experiment) {
   for (const Recording& recording : experiment.recordings) {
     actuated = actuated || recording.actuation.has_value();
   }
+  const double noise_variance_m2 = NoiseVariance_m2(experiment);
   for (const Recording& recording : experiment.recordings) {
     const std::string who = "recording " + recording.name;
     const bool measured =
@@ -229,7 +247,7 @@ Status CheckTables(const experiment::Experiment& experiment) {
     if (IsFrozen(recording)) {
       return Refused(who + ": the markers are identical to the last digit: the camera was frozen");
     }
-    if (IsShuffled(recording, experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero()))) {
+    if (IsShuffled(recording, noise_variance_m2)) {
       return Refused(
           who + ": the markers jump while the cables move steadily: the stamps are out of order");
     }

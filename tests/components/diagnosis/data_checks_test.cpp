@@ -81,5 +81,36 @@ TEST_F(PicturesOfARecording, WithStampsOutOfOrderAreTold) {
               HasSubstr("recording a: the clouds jump"));
 }
 
+/// Of one marker along x, with noise whose size is not stated, and one cable.
+experiment::Recording RecordingOf(const std::string& name, double moved_m,
+                                  const std::function<int(int frame)>& order) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> noise_m(0.0, kFitnessNoise_m);
+  constexpr int kMarkerFrames = 40;
+  const auto share = [](int frame) { return static_cast<double>(frame) / kMarkerFrames; };
+  experiment::Recording recording;
+  recording.name = name;
+  recording.markers.emplace().names = {"tip"};
+  recording.actuation.emplace().columns.emplace_back().cable = "north";
+  for (int k = 0; k < kMarkerFrames; ++k) {
+    recording.actuation->t_s.push_back(0.1 * k);
+    recording.actuation->columns[0].samples.emplace_back(moved_m * share(k));
+    const double x_m = moved_m * share(order(k)) + noise_m(random);
+    recording.markers->frames.push_back(
+        {.t_s = 0.1 * k, .positions_m = {Eigen::Vector3d(x_m, noise_m(random), noise_m(random))}});
+  }
+  return recording;
+}
+
+TEST(MarkerTables, AtRestAreNotOutOfOrderWhereTheirNoiseIsNotStated) {
+  experiment::Experiment experiment;
+  experiment.recordings.push_back(RecordingOf("still", 0.0, [](int k) { return k; }));
+  EXPECT_EQ(CheckTables(experiment).message(), "");
+  experiment.recordings.push_back(RecordingOf("ramp", 0.02, [](int k) { return k; }));
+  EXPECT_EQ(CheckTables(experiment).message(), "");
+  experiment.recordings.push_back(RecordingOf("mixed", 0.02, [](int k) { return 7 * k % 40; }));
+  EXPECT_THAT(CheckTables(experiment).message(), HasSubstr("recording mixed: the markers jump"));
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

@@ -295,7 +295,7 @@ def check_recorder(system):
 
 
 def check_launched(system):
-    """As check_steady(); then every process on both hosts ends cleanly, though a reader was killed."""
+    """As check_steady(); then every process ends cleanly, though a reader was killed."""
     check_steady(system)
     for _, process in system.processes:
         process.send_signal(signal.SIGINT)

@@ -43,7 +43,8 @@ class ModelExperiment : public testing::Test {
         experiment::Actuation{{0.0, 0.1, 0.2}, {{"top", {}, {0.0, 1e-3, 2e-3}, {}}}};
     recording.markers = experiment::MarkerTracks{{"near", "tip"}, {{}, {}}, {}};
     for (const double t_s : {0.0, 0.1, 0.2}) {
-      experiment::MarkerFrame frame{.t_s = t_s};
+      experiment::MarkerFrame frame;
+      frame.t_s = t_s;
       for (const Eigen::Vector3d& position_m : MarkersAt(0.01 * t_s)) {
         frame.positions_m.emplace_back(position_m);
       }
@@ -114,7 +115,9 @@ TEST_F(ModelExperiment, CountsMarkersFromTheirReference) {
 
 TEST_F(ModelExperiment, LetsKnownLoadsAct) {
   const Eigen::Vector3d force_N(0.0, 0.0, -0.05);
-  experiment_.recordings.front().loads = {{.position_m = {0.0, 0.015, 0.03}, .force_N = force_N}};
+  experiment::KnownLoad& load = experiment_.recordings.front().loads.emplace_back();
+  load.position_m = {0.0, 0.015, 0.03};
+  load.force_N = force_N;
   ExperimentFrames frames(experiment_, robot_, nullptr);
   const ExperimentFrame frame = frames.FrameAt(frames.instants()[0]);
   ASSERT_EQ(frame.known.size(), 1U);
