@@ -116,23 +116,27 @@ void KeyHash(const ddsi_serdata*, ddsi_keyhash* hash, bool) {
   std::memset(hash->value, 0, sizeof(hash->value));
 }
 
-const ddsi_serdata_ops kDataOps = {.eqkey = EqualKey,
-                                   .get_size = Size,
-                                   .from_ser = FromFragments,
-                                   .from_ser_iov = FromPieces,
-                                   .from_keyhash = FromKeyHash,
-                                   .from_sample = FromSample,
-                                   .to_ser = ToBytes,
-                                   .to_ser_ref = ToBytesRef,
-                                   .to_ser_unref = ToBytesUnref,
-                                   .to_sample = ToSample,
-                                   .to_untyped = ToUntyped,
-                                   .untyped_to_sample = UntypedToSample,
-                                   .free = Free,
-                                   .print = Print,
-                                   .get_keyhash = KeyHash,
-                                   .get_sample_size = Size,
-                                   .from_iox_buffer = nullptr};
+const ddsi_serdata_ops kDataOps = {
+    .eqkey = EqualKey,
+    .get_size = Size,
+    .from_ser = FromFragments,
+    .from_ser_iov = FromPieces,
+    .from_keyhash = FromKeyHash,
+    .from_sample = FromSample,
+    .to_ser = ToBytes,
+    .to_ser_ref = ToBytesRef,
+    .to_ser_unref = ToBytesUnref,
+    .to_sample = ToSample,
+    .to_untyped = ToUntyped,
+    .untyped_to_sample = UntypedToSample,
+    .free = Free,
+    .print = Print,
+    .get_keyhash = KeyHash,
+#ifdef DDS_HAS_SHM
+    .get_sample_size = Size,
+    .from_iox_buffer = nullptr,
+#endif
+};
 
 void FreeType(ddsi_sertype* type) {
   ddsi_sertype_fini(type);
