@@ -151,7 +151,7 @@ Status ExperimentFrames::FindOffsets(const ExperimentInstant& instant) {
     const Status solved = robot_.model().Solve(CommandsAt(begin), {}, &state).status;
     if (!solved.ok()) return solved;
   }
-  const Eigen::Matrix3Xd model_m = ModelMarkers(state.x_m);
+  const Eigen::Matrix3Xd model_m = robot_.MarkersAt(robot_.model().MarkerNames(), state.x_m);
   const auto means = experiment::MeanOver(*recording.markers, recording.reference->window_s);
   for (std::size_t m = 0; m < robot_.body().markers.size(); ++m) {
     const auto at = recording.markers->IndexOf(robot_.body().markers[m].name);
@@ -174,18 +174,10 @@ void ExperimentFrames::EnterRecording(const ExperimentInstant& instant) {
   if (!FindOffsets(instant).ok()) offsets_m_.setConstant(kNaN);
 }
 
-Eigen::Matrix3Xd ExperimentFrames::ModelMarkers(const Eigen::VectorXd& x_m) const {
-  const auto& markers = robot_.body().markers;
-  Eigen::Matrix3Xd model_m(3, ToIndex(markers.size()));
-  for (std::size_t m = 0; m < markers.size(); ++m) {
-    model_m.col(ToIndex(m)) = markers[m].point.weights.Position(x_m);
-  }
-  return model_m;
-}
-
 void ExperimentFrames::AddMarkers(const ExperimentInstant& instant, ExperimentFrame* frame) const {
   const auto& markers = robot_.body().markers;
-  frame->model_m = ModelMarkers(frame->x_m);
+  frame->model_m = robot_.MarkersAt(robot_.model().MarkerNames(), frame->x_m);
+  if (!frame->status.ok()) frame->model_m.setConstant(kNaN);
   frame->measured_m.setConstant(3, ToIndex(markers.size()), kNaN);
   const experiment::Recording& recording = RecordingOf(instant);
   const experiment::MarkerFrame* measured =
@@ -217,7 +209,9 @@ ExperimentFrame ExperimentFrames::FrameAt(const ExperimentInstant& instant) {
   }
   const std::vector<std::string> names = robot_.model().CableNames();
   for (std::size_t cable = 0; cable < names.size(); ++cable) {
-    frame.cables.push_back(robot_.model().StateOfCable(static_cast<int>(cable), state_));
+    frame.cables.push_back(frame.status.ok()
+                               ? robot_.model().StateOfCable(static_cast<int>(cable), state_)
+                               : robot::CableState{kNaN, kNaN, kNaN});
     frame.measured_tension_N.push_back(experiment::CableInputAt(
         RecordingOf(instant), names[cable], experiment::CableQuantity::kTension, instant.t_s));
   }

@@ -24,8 +24,10 @@ struct ExperimentInstant {
 
 /// What was measured at one instant, and where the model is under the same commands and forces.
 struct ExperimentFrame {
-  Status status;        ///< of the model's equilibrium; else `x_m` is the last one
-  Eigen::VectorXd x_m;  ///< [3n]
+  /// Of the model's equilibrium. Without it `x_m` is the last shape, and the model's cables,
+  /// markers and residual are NaN.
+  Status status;
+  Eigen::VectorXd x_m;                                    ///< [3n]
   std::vector<robot::CableState> cables;                  ///< of the model, by cable of the robot
   std::vector<std::optional<double>> measured_tension_N;  ///< by cable
   Eigen::Matrix3Xd measured_m;                ///< [3 x markers] robot frame; NaN: not seen
@@ -62,7 +64,6 @@ class ExperimentFrames {
   std::vector<robot::DeadLoad> LoadsAt(const ExperimentInstant& instant, ExperimentFrame* frame);
   void EnterRecording(const ExperimentInstant& instant);
   void AddMarkers(const ExperimentInstant& instant, ExperimentFrame* frame) const;
-  Eigen::Matrix3Xd ModelMarkers(const Eigen::VectorXd& x_m) const;
   Status FindOffsets(const ExperimentInstant& instant);
 
   const experiment::Experiment& experiment_;

@@ -11,9 +11,8 @@
 #include "libs/core/status.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
-#include "sensor_msgs/msg/Image.hpp"
-
 #include "sensor_msgs/msg/CompressedImage.hpp"
+#include "sensor_msgs/msg/Image.hpp"
 
 namespace palpate::view {
 

@@ -139,7 +139,7 @@ void ExperimentSource::ShowShape(const ExperimentInstant& instant, const Experim
   state->counter = counter_;
   dds::SetText(state->status, ToString(frame.status.code()));
   feed_->Take(*state);
-  if (frame.seen == 0) return;
+  if (frame.seen == 0 || !frame.status.ok()) return;
   dds::Message<idl::palpate_msgs::ModelGap> gap;
   dds::SetHeader(gap->header, stamp_ns, geometry::kRobotFrame);
   gap->counter = counter_;

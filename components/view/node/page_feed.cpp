@@ -267,7 +267,7 @@ void PageFeed::Take(const idl::palpate_msgs::MarkerArray3& message) {
   const Status read = FromMarkerArray(message, &markers);
   if (!read.ok()) return Warn("/perception/markers", read);
   if (robot_ != nullptr && mesh_.usable() && mesh_.surface().node_count == robot_->NodeCount()) {
-    markers.model_m = ModelMarkers(*robot_, markers.names, mesh_.nodes_m());
+    markers.model_m = robot_->MarkersAt(markers.names, mesh_.nodes_m());
   }
   TakeMarkers(std::move(markers));
 }

@@ -3,8 +3,6 @@
 
 #include "components/view/node/shown_markers.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <span>
 
 #include "components/view/frames/binary_frame.hpp"
@@ -46,22 +44,6 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message, ShownMark
   markers->measured_m.conservativeResize(3, seen);
   markers->sigma_m.conservativeResize(3, seen);
   return Status::Ok();
-}
-
-Eigen::Matrix3Xd ModelMarkers(const KnownRobot& robot, const std::vector<std::string>& names,
-                              const Eigen::VectorXd& x_m) {
-  Eigen::Matrix3Xd model_m = Eigen::Matrix3Xd::Constant(3, ToIndex(names.size()),
-                                                        std::numeric_limits<double>::quiet_NaN());
-  const auto& markers = robot.body().markers;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto found =
-        std::find_if(markers.begin(), markers.end(),
-                     [&](const robot::BodyMarker& marker) { return marker.name == names[k]; });
-    if (found != markers.end()) {
-      model_m.col(ToIndex(k)) = found->point.weights.Position(x_m);
-    }
-  }
-  return model_m;
 }
 
 OutMessage MarkersMessage(const ShownMarkers& markers) {

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "components/view/robot/known_robot.hpp"
 #include "components/view/serve/out_message.hpp"
 #include "libs/core/status.hpp"
 #include "libs/dds/topics.hpp"
@@ -26,10 +25,6 @@ struct ShownMarkers {
 
 /// The markers that were seen. kInvalidInput for another frame than the robot's.
 Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message, ShownMarkers* markers);
-
-/// Places of the markers of these names on the body with its nodes at `x_m` [3n].
-Eigen::Matrix3Xd ModelMarkers(const KnownRobot& robot, const std::vector<std::string>& names,
-                              const Eigen::VectorXd& x_m);
 
 OutMessage MarkersMessage(const ShownMarkers& markers);
 

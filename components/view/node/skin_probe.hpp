@@ -12,6 +12,7 @@
 #include "components/view/frames/page_request.hpp"
 #include "components/view/node/shown_markers.hpp"
 #include "components/view/node/shown_mesh.hpp"
+#include "components/view/robot/known_robot.hpp"
 
 namespace palpate::view {
 

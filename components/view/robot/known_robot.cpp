@@ -4,6 +4,7 @@
 #include "components/view/robot/known_robot.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
@@ -75,6 +76,18 @@ std::vector<float> KnownRobot::Stiffness_Pa(const PageSurface& surface) const {
     stiffness_Pa.push_back(static_cast<float>(sum_Pa[node] / cells[node]));
   }
   return stiffness_Pa;
+}
+
+Eigen::Matrix3Xd KnownRobot::MarkersAt(const std::vector<std::string>& names,
+                                       const Eigen::VectorXd& x_m) const {
+  Eigen::Matrix3Xd markers_m = Eigen::Matrix3Xd::Constant(3, ToIndex(names.size()),
+                                                          std::numeric_limits<double>::quiet_NaN());
+  const std::vector<std::string> known = model_.MarkerNames();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto marker = IndexOf(names[k], known);
+    if (marker) markers_m.col(ToIndex(k)) = body().markers[*marker].point.weights.Position(x_m);
+  }
+  return markers_m;
 }
 
 fem::InterpolationWeights KnownRobot::PlaceNear(const Eigen::Vector3d& position_m,

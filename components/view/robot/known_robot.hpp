@@ -48,6 +48,11 @@ class KnownRobot {
   /// where the surface is of another mesh.
   std::vector<float> Stiffness_Pa(const PageSurface& surface) const;
 
+  /// [3 x names] the markers of these names on the body with its nodes at `x_m` [3n]; NaN: it has
+  /// no such marker. m, robot frame.
+  Eigen::Matrix3Xd MarkersAt(const std::vector<std::string>& names,
+                             const Eigen::VectorXd& x_m) const;
+
   /// The point of the surface nearest to `position_m`, with the nodes at `x_m` [3n]: where a force
   /// acts that was located on the deformed body.
   fem::InterpolationWeights PlaceNear(const Eigen::Vector3d& position_m,
@@ -57,9 +62,9 @@ class KnownRobot {
   /// with a false-alarm probability of `significance`:
   ///   F = z(1 - significance) / sqrt(sum_i (w_i / sigma_i)^2),
   /// w_i: motion of row i per newton, m/N, of the body as it is at `x_m` [3n] under cables of
-  /// tensions `tension_N` [cables] (taut ones are held, NaN: taut with no tension). Noise alone
-  /// counts: unknown other forces and errors of the model make it larger. Failures: no rows, a
-  /// shape at which the model has no stable stiffness, a place that moves no row.
+  /// tensions `tension_N` [cables] (taut ones are held; NaN: not known, counts as taut). Noise
+  /// alone counts: unknown other forces and errors of the model make it larger. Failures: no rows,
+  /// a shape at which the model has no stable stiffness, a place that moves no row.
   Status SmallestForce(const ProbedPlace& place, const Eigen::VectorXd& x_m,
                        const Eigen::VectorXd& tension_N, const MeasuredRows& measured,
                        double significance, double* force_N);

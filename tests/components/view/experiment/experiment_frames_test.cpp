@@ -10,7 +10,7 @@
 #include "components/view/experiment/estimated_forces.hpp"
 #include "components/view/experiment/near_points.hpp"
 #include "libs/core/error.hpp"
-#include "tests/support/robots.hpp"
+#include "tests/components/view/robot/cabled_beam.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::view {
@@ -21,14 +21,7 @@ using test_support::TestFolder;
 using testing::HasSubstr;
 
 robot::RobotBody MarkedBeam() {
-  robot::RobotDescription robot = test_support::QuickRobot("beam");
-  robot::CableSettings cable;
-  cable.name = "top";
-  cable.path_m.resize(3, 2);
-  cable.path_m << -0.15, 0.0, 0.015, 0.015, 0.03, 0.03;
-  robot.cables = {cable};
-  robot.markers = {{"near", {-0.05, 0.015, 0.03}, {}}, {"tip", {0.0, 0.015, 0.03}, {}}};
-  return robot::BuildRobotBody(robot);
+  return CabledBeam({{"near", {-0.05, 0.015, 0.03}, {}}, {"tip", {0.0, 0.015, 0.03}, {}}});
 }
 
 /// The markers of the model, pulled by 0, 1 and 2 mm a tenth of a second apart.
@@ -100,6 +93,17 @@ TEST_F(ModelExperiment, ShowsWhereAMarkerIsOffTheModel) {
   EXPECT_EQ(hidden.seen, 1);
   EXPECT_TRUE(hidden.measured_m.col(0).array().isNaN().all());
   EXPECT_LT(hidden.residual_rms_m, 1e-9);
+}
+
+TEST_F(ModelExperiment, ShowsNoResidualWithoutAnEquilibrium) {
+  experiment_.recordings.front().actuation->columns.front().samples.back() = 1.9;
+  ExperimentFrames frames(experiment_, robot_, nullptr);
+  const ExperimentFrame frame = frames.FrameAt(frames.instants()[2]);
+  EXPECT_FALSE(frame.status.ok()) << "a beam of 0.15 m cannot be pulled in by 1.9 m";
+  EXPECT_TRUE(std::isnan(frame.residual_rms_m));
+  EXPECT_TRUE(frame.model_m.array().isNaN().all());
+  EXPECT_TRUE(std::isnan(frame.cables.front().tension_N));
+  EXPECT_TRUE(frame.measured_m.allFinite()) << "what was measured is shown";
 }
 
 TEST_F(ModelExperiment, CountsMarkersFromTheirReference) {

@@ -14,7 +14,7 @@
 #include "libs/geometry/frames.hpp"
 #include "libs/rgbd/jpeg.hpp"
 #include "tests/components/view/node/page_messages.hpp"
-#include "tests/support/robots.hpp"
+#include "tests/components/view/robot/cabled_beam.hpp"
 
 namespace palpate::view {
 namespace {
@@ -23,16 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-robot::RobotBody MarkedBeam() {
-  robot::RobotDescription robot = test_support::QuickRobot("beam");
-  robot::CableSettings cable;
-  cable.name = "top";
-  cable.path_m.resize(3, 2);
-  cable.path_m << -0.15, 0.0, 0.015, 0.015, 0.03, 0.03;
-  robot.cables = {cable};
-  robot.markers = {{"tip", {0.0, 0.015, 0.03}, {}}};
-  return robot::BuildRobotBody(robot);
-}
+robot::RobotBody MarkedBeam() { return CabledBeam({{"tip", {0.0, 0.015, 0.03}, {}}}); }
 
 /// A feed that knows the robot, and what it has told the page.
 class FeedOfKnownRobot : public testing::Test {

@@ -8,21 +8,10 @@
 #include <cmath>
 
 #include "libs/core/statistics.hpp"
-#include "tests/support/robots.hpp"
+#include "tests/components/view/robot/cabled_beam.hpp"
 
 namespace palpate::view {
 namespace {
-
-/// A cantilever of 12 elements with a cable along its upper side.
-robot::RobotBody CabledBeam() {
-  robot::RobotDescription robot = test_support::QuickRobot("beam");
-  robot::CableSettings cable;
-  cable.name = "top";
-  cable.path_m.resize(3, 2);
-  cable.path_m << -0.15, 0.0, 0.015, 0.015, 0.03, 0.03;
-  robot.cables = {cable};
-  return robot::BuildRobotBody(robot);
-}
 
 class ForceThatIsFelt : public testing::Test {
  protected:
