@@ -111,6 +111,7 @@ class System:
 
     def __init__(self, network, source, programs, folder, settings):
         self.network, self.programs, self.folder = network, programs, folder
+        self.settings = settings
         self.processes = []
         peers = ",".join(network.address(number) for number in range(len(network.names)))
         self.environment = os.environ | {
@@ -190,10 +191,6 @@ class System:
 class LaunchedSystem(System):
     """The same, but `palpate launch` starts the processes of each host, from one system file."""
 
-    def __init__(self, network, source, programs, folder, settings, secured=False):
-        super().__init__(network, source, programs, folder, settings)
-        self.settings, self.secured = settings, secured
-
     def system_file(self, pose):
         virtual = ["four_leg", "--scenario", str(self.scenario)]
         text = {"name": "hosts", "domain": 88, "transport": self.settings, "hosts": [
@@ -207,21 +204,28 @@ class LaunchedSystem(System):
             {"name": "model", "address": self.network.address(1), "processes": [
                 {"name": "forces", "component": "force_estimation", "required": True,
                  "arguments": ["four_leg", "--camera-pose", pose]}]}]}
-        if self.secured:
-            text["security"] = "keystore"
-        return json.dumps(text)  # which is YAML, too
+        return text
+
+    def prepare(self):
+        """Once each host has its file."""
 
     def start_all(self):
-        text = self.system_file(self.camera_pose())
+        text = json.dumps(self.system_file(self.camera_pose()))  # which is YAML, too
         for name in self.network.names:
             (self.folder / name).mkdir()
             (self.folder / name / "system.yaml").write_text(text, encoding="utf-8")
-        if self.secured:
-            self.share_identities()
+        self.prepare()
         for name in self.network.names:
             self.start(name, "palpate", "launch", f"{name}/system.yaml", "--host", name)
 
-    def share_identities(self):
+
+class SecuredSystem(LaunchedSystem):
+    """The same in a secured domain."""
+
+    def system_file(self, pose):
+        return super().system_file(pose) | {"security": "keystore"}
+
+    def prepare(self):
         """Each host gets its own identities, as docs/security.md says, and the model's `watch`."""
         system = self.folder / "model" / "system.yaml"
         told = self.run("model", "palpate", "security", "init", "keystore", "--system", system)
@@ -309,24 +313,27 @@ def check_secured(system):
     """As check_launched(); who has no identity sees no topic."""
     system.wait_for(forces_flow, "forces")
     line, options = system.command("model", "palpate", "topic", "list", "--domain", "88")
-    del options["env"]["PALPATE_SECURITY_DIR"]
-    plain = subprocess.run(line, check=False, capture_output=True, text=True, **options)
-    assert "/forces" not in plain.stdout, plain.stdout
+    plain = options | {"env": {key: value for key, value in options["env"].items()
+                               if key != "PALPATE_SECURITY_DIR"}}
+    topics = [subprocess.run(line, check=True, capture_output=True, text=True, **each).stdout
+              for each in (options, plain)]
+    assert "/forces\n" in topics[0] and "/forces\n" not in topics[1], topics
     check_launched(system)
 
 
-CASES = {"two_hosts": (["camera", "model"], "lan", 0, check_steady),
-         "launch": (["camera", "model"], "lan", 0, check_launched),
-         "launch_secured": (["camera", "model"], "lan", 0, check_secured),
-         "three_hosts": (["camera", "model", "recorder"], "lan", 0, check_recorder),
-         "loss_1": (["camera", "model"], "lossy_link", 1, check_steady),
-         "loss_5": (["camera", "model"], "lossy_link", 5, check_steady),
-         "cut": (["camera", "model"], "lossy_link", 0, check_cut)}
+# Hosts, settings of Cyclone DDS, lost packets in percent, how processes are started, check.
+CASES = {"two_hosts": (["camera", "model"], "lan", 0, System, check_steady),
+         "launch": (["camera", "model"], "lan", 0, LaunchedSystem, check_launched),
+         "launch_secured": (["camera", "model"], "lan", 0, SecuredSystem, check_secured),
+         "three_hosts": (["camera", "model", "recorder"], "lan", 0, System, check_recorder),
+         "loss_1": (["camera", "model"], "lossy_link", 1, System, check_steady),
+         "loss_5": (["camera", "model"], "lossy_link", 5, System, check_steady),
+         "cut": (["camera", "model"], "lossy_link", 0, System, check_cut)}
 
 
 def main():
     source, programs = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    names, settings, loss_percent, check = CASES[sys.argv[3]]
+    names, settings, loss_percent, kind, check = CASES[sys.argv[3]]
     try:
         network = Network(names)
         if loss_percent:
@@ -335,9 +342,7 @@ def main():
         print(f"skipped: {reason}")
         return SKIPPED
     with network.undo, tempfile.TemporaryDirectory() as folder:
-        place = (network, source, programs, pathlib.Path(folder), settings)
-        system = (System(*place) if check not in (check_launched, check_secured) else
-                  LaunchedSystem(*place, secured=check is check_secured))
+        system = kind(network, source, programs, pathlib.Path(folder), settings)
         try:
             system.start_all()
             check(system)
