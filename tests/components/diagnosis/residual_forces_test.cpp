@@ -52,6 +52,9 @@ TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
 }
 
 TEST_F(ResidualForcesOfOneForce, AreGoneOnceItIsNamed) {
+  Measure({});
+  const ResidualForces of_noise = FindResidualForces(
+      observed_, hypotheses_, Named(Fitter(observed_, body_, hypotheses_, {}, 1), {}));
   Measure({{"permanent_force", "body", kResidualForce_N, kAxis}});
   const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const int force = Number("permanent_force", "body");
@@ -60,6 +63,7 @@ TEST_F(ResidualForcesOfOneForce, AreGoneOnceItIsNamed) {
   const double before_N = forces.before_N.rowwise().sum().dot(direction);
   const double after_N = forces.after_N.rowwise().sum().dot(direction);
   EXPECT_LT(std::abs(after_N), 0.2 * before_N) << "seed " << kSeed;
+  EXPECT_LT(forces.after_N.norm(), 1.2 * of_noise.after_N.norm()) << "as of a healthy robot";
 }
 
 TEST_F(ResidualForcesOfOneForce, AreLookedForInTheRecordingThatLeavesMost) {
