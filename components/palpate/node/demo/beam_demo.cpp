@@ -86,8 +86,14 @@ std::unique_ptr<app::ChildProcess> StartRecorder(const DemoPlace& place) {
       "recorder.log");
 }
 
-void TellPage(const DemoPlace& place) {
-  const std::string url = PageUrlIn(place.folder / "view.log");
+void TellPage(app::ChildProcess* page, ForceListener* listener) {
+  std::string url;
+  listener->Listen(
+      [&] {
+        url = PageUrlIn(page->log());
+        return !url.empty() || page->ExitCode();
+      },
+      kPageLimit);
   if (!url.empty()) fmt::print("  Look at it in a browser: {}\n", url);
 }
 
@@ -102,7 +108,9 @@ void WriteForcePlot(const DemoPlace& place, const ForceListener& listener) {
   fmt::print("  plot: {}\n", (place.folder / "forces.svg").string());
 }
 
-void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, ForceListener* listener) {
+/// `page`: null where there is none.
+void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, app::ChildProcess* page,
+                        ForceListener* listener) {
   const DemoStep step(
       fmt::format("[3/4] Markers of {} through DDS: palpate-player -> "
                   "palpate-force-estimation (domain {}, loopback only)",
@@ -113,7 +121,7 @@ void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, ForceListe
   if (const auto ended = estimation->ExitCode()) {
     RefuseEnded(*estimation, *ended);
   }
-  TellPage(place);
+  if (page) TellPage(page, listener);
   const auto player = StartPlayer(data, place);
   const bool finished = listener->Listen(
       [&] { return player->ExitCode().has_value() || estimation->ExitCode().has_value(); },
@@ -140,7 +148,7 @@ int BeamDemo(const BeamDemoOptions& options) {
   {
     const auto recorder = StartRecorder(place);
     const auto page = options.no_view ? nullptr : place.Start("palpate-view", {"beam"}, "view.log");
-    ListenWhileItPlays(data, place, &listener);
+    ListenWhileItPlays(data, place, page.get(), &listener);
   }
 
   const DemoStep step("[4/4] Force against truth");

@@ -119,7 +119,9 @@ class DemoRun {
   std::string log_folder_hint_;
 };
 
-void TellPage(const SystemProcesses& processes) {
+void TellPage(DemoRun* run) {
+  const SystemProcesses& processes = run->processes();
+  run->Listen([&] { return !processes.HasPage() || !processes.PageUrl().empty(); }, kPageLimit);
   const std::string url = processes.PageUrl();
   if (!url.empty()) fmt::print("  Look at it in a browser: {}\n", url);
   std::fflush(stdout);
@@ -152,7 +154,7 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
-  TellPage(run->processes());
+  TellPage(run);
   const int seconds = options.seconds > 0 ? options.seconds : kUsualSeconds;
   const DemoStep step(fmt::format("[2/3] {} s of {}: forces against truth", seconds,
                                   scenario_file.filename().string()));
@@ -207,7 +209,7 @@ void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::pat
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
-  TellPage(run->processes());
+  TellPage(run);
   const DemoStep step(fmt::format("[2/3] {} recordings, {} frames, each estimated before the next",
                                   images.recordings, images.frames));
   run->ShowTable();

@@ -126,13 +126,17 @@ bool SystemProcesses::HasEnded(const std::string& process) const {
   return false;
 }
 
-std::string SystemProcesses::PageUrl() const {
-  if (!launcher_) return {};
+bool SystemProcesses::HasPage() const {
+  if (!launcher_) return false;
   const std::vector<ProcessReport> reports = launcher_->Reports();
-  const bool has_page = std::any_of(reports.begin(), reports.end(), [](const ProcessReport& one) {
+  return std::any_of(reports.begin(), reports.end(), [](const ProcessReport& one) {
     return one.name == kPage && one.state != LaunchState::kFailed;
   });
-  return has_page ? PageUrlIn(logs_.FileOf(kPage)) : std::string();  // else the log is an old one
+}
+
+std::string SystemProcesses::PageUrl() const {
+  // Where there is no page, the log is an old one.
+  return HasPage() ? PageUrlIn(logs_.FileOf(kPage)) : std::string();
 }
 
 void SystemProcesses::Stop() {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -24,6 +25,9 @@ struct DemoSystem {
   bool page = true;                        ///< with the process view
   std::filesystem::path recording = {};    ///< of all but images and clouds; empty: none
 };
+
+/// How long to wait for the page. A demonstration goes on without it.
+constexpr std::chrono::seconds kPageLimit(10);
 
 /// What palpate-view has written to its log about where the page is; empty: nothing yet.
 std::string PageUrlIn(const std::filesystem::path& log);
@@ -60,7 +64,9 @@ class SystemProcesses {
   void CheckAlive();
   /// Whether the process has ended.
   bool HasEnded(const std::string& process) const;
-  /// Of the live page, once it has said so; empty: there is none.
+  /// Whether the process of the live page runs or will run.
+  bool HasPage() const;
+  /// Of the live page, once it has said so; empty: not yet, or there is none.
   std::string PageUrl() const;
   /// Lets all end, the youngest first.
   void Stop();
