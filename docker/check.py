@@ -12,6 +12,7 @@ Needs root, debootstrap, buildah, podman and runc; exit code 77 with the reason 
 
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -26,7 +27,6 @@ from debian_root import make_packages, make_root, need_root, need_tools, run, sk
 
 MOST_MB = 250
 DOMAIN = "97"
-CAMERA = "127.78.0.1"
 START_LIMIT_S = 120
 # Nothing of these is left out or added by the network of the machine.
 ENVIRONMENT = {"ROS_DOMAIN_ID": DOMAIN,
@@ -99,13 +99,8 @@ def run_once(store, command, check=True):
 
 
 def command_of(service):
-    values = {"PALPATE_ROBOT:-four_leg": "four_leg", f"PALPATE_CAMERA:-{CAMERA}": CAMERA}
-    words = []
-    for word in service["command"]:
-        for variable, value in values.items():
-            word = word.replace("${" + variable + "}", value)
-        words.append(word)
-    return words
+    """The command as compose gives it where no variable is set."""
+    return [re.sub(r"\$\{\w+:-([^}]*)\}", r"\1", word) for word in service["command"]]
 
 
 def is_healthy(store, name, service):
