@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME palpate-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, \
 libyaml-cpp-dev, libcli11-dev, libspdlog-dev, libfmt-dev, nlohmann-json3-dev, \
-libtinyxml2-dev, zlib1g-dev, liblzma-dev, \
+libtinyxml2-dev, libssl-dev, zlib1g-dev, liblzma-dev, \
 libpng-dev, libjpeg62-turbo-dev, libzstd-dev, liblz4-dev, libdeflate-dev, libsqlite3-dev, \
 cyclonedds-dev, libaravis-dev, libpcl-dev, coinor-libipopt-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS palpate)
