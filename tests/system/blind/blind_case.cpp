@@ -88,7 +88,7 @@ std::string ToString(Corruption corruption) {
     case Corruption::kNone: return "none";
     case Corruption::kShuffledStamps: return "shuffled stamps";
     case Corruption::kFrozenMarkers: return "frozen markers";
-    case Corruption::kNotANumber: return "nan";
+    case Corruption::kNotANumber: return "not a number";
     case Corruption::kMissingActuation: return "missing actuation.csv";
     case Corruption::kOtherRobot: break;
   }

@@ -27,7 +27,7 @@ enum class Corruption {
   kNone,
   kShuffledStamps,    ///< of one recording's markers
   kFrozenMarkers,     ///< they stand still from some moment of a recording on
-  kNotANumber,        ///< some coordinates of a recording are "nan"
+  kNotANumber,        ///< some coordinates of a recording are words
   kMissingActuation,  ///< of one recording that others have
   kOtherRobot,        ///< the data are right, the robot file is another's
 };

@@ -71,12 +71,12 @@ void Freeze(MarkerFile* markers) {
   for (std::size_t i = last + 1; i < moments.size(); ++i) moments[i].rows = moments[last].rows;
 }
 
-/// In a tenth of all moments, of one marker.
-void PutNan(Random* random, MarkerFile* markers) {
+/// As a spreadsheet writes what it cannot compute: in a tenth of all moments, of one marker.
+void PutErrorWords(Random* random, MarkerFile* markers) {
   const std::size_t row = random->Below(markers->moments.front().rows.size());
   for (std::size_t i = random->Below(10); i < markers->moments.size(); i += 10) {
     std::string& text = markers->moments[i].rows.at(row);
-    text = text.substr(0, text.find(',')) + ",nan,nan,nan";
+    text = text.substr(0, text.find(',')) + ",#VALUE!,#VALUE!,#VALUE!";
   }
 }
 
@@ -158,7 +158,7 @@ void Corrupt(Corruption corruption, std::uint64_t seed, const fs::path& experime
   MarkerFile markers = ReadMarkerFile(recording / "markers.csv");
   if (corruption == Corruption::kShuffledStamps) ShuffleStamps(&random, &markers);
   if (corruption == Corruption::kFrozenMarkers) Freeze(&markers);
-  if (corruption == Corruption::kNotANumber) PutNan(&random, &markers);
+  if (corruption == Corruption::kNotANumber) PutErrorWords(&random, &markers);
   WriteMarkerFile(markers, recording / "markers.csv");
 }
 
