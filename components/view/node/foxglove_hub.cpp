@@ -37,6 +37,7 @@ HttpAnswer FoxgloveHub::Get(std::string_view) {
 
 void FoxgloveHub::Opened(ClientId client) {
   clients_[client];
+  client_count_ = static_cast<int>(clients_.size());
   server_->Send(client, TextMessage("serverInfo", foxglove::ServerInfoText(
                                                       name_, session_, {{"palpate", version_}})));
   std::vector<foxglove::Channel> channels;
@@ -47,6 +48,7 @@ void FoxgloveHub::Opened(ClientId client) {
 void FoxgloveHub::Closed(ClientId client) {
   End([client](const Subscriber& subscriber) { return subscriber.first == client; });
   clients_.erase(client);
+  client_count_ = static_cast<int>(clients_.size());
 }
 
 void FoxgloveHub::Received(ClientId client, std::string_view bytes, bool binary) {

@@ -44,6 +44,7 @@ class FoxgloveHub : public WebEndpoint {
   /// A line that clients show.
   void TellStatus(foxglove::StatusLevel level, std::string text);
 
+  int clients() const { return client_count_; }
   /// Of a channel that was added first.
   bool IsWanted(foxglove::ChannelId channel) const { return channel == kSceneChannel && scene_; }
 
@@ -89,6 +90,7 @@ class FoxgloveHub : public WebEndpoint {
   std::map<foxglove::ChannelId, Open> channels_;
   std::map<ClientId, std::map<foxglove::SubscriptionId, foxglove::ChannelId>> clients_;
   std::atomic<bool> scene_ = false;
+  std::atomic<int> client_count_ = 0;
 };
 
 }  // namespace palpate::view

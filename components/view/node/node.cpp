@@ -131,7 +131,12 @@ void ViewNode::ChooseSource(const ViewPlan& plan) {
     foxglove_topics_ = std::make_unique<FoxgloveTopics>(participant_, loop_, log_, foxglove_.get());
     return;
   }
-  loop_.Every(kPlayPeriod, [this] { played_->Advance(MonotonicNow_ns()); });
+  loop_.Every(kPlayPeriod, [this] { PlayOn(); });
+}
+
+void ViewNode::PlayOn() {
+  watched_ = watched_ || page_->clients() > 0 || foxglove_->clients() > 0;
+  if (watched_) played_->Advance(MonotonicNow_ns());
 }
 
 void ViewNode::PlayRecording(const ViewPlan& plan) {

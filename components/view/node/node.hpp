@@ -73,6 +73,8 @@ class ViewNode {
   FeedOutputs Outputs();
   void Listen(const ViewPlan& plan);
   void ChooseSource(const ViewPlan& plan);
+  /// From the first client on: before it nobody would see the beginning.
+  void PlayOn();
   void PlayRecording(const ViewPlan& plan);
   void Ask(Wish wish);
   void Serve();
@@ -97,6 +99,7 @@ class ViewNode {
   RecorderControl recorder_;
   std::unique_ptr<LiveSource> live_;
   std::unique_ptr<PlayedSource> played_;
+  bool watched_ = false;
   std::unique_ptr<FoxgloveRecording> foxglove_recording_;
   std::unique_ptr<FoxgloveTopics> foxglove_topics_;
   std::uint64_t published_ = 0;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -164,6 +165,27 @@ TEST_F(RecordingInFoxglove, IsPassedOnAsItWasRecorded) {
   constexpr std::size_t kHeadBytes = 13;
   EXPECT_THAT(std::vector<std::string>({CdrOfForces(1), CdrOfForces(2), CdrOfForces(3)}),
               testing::Contains(data->substr(kHeadBytes)));
+}
+
+/// Who opens the page late sees the beginning all the same.
+TEST_F(Recording, BeginsWithTheFirstClient) {
+  Write("/forces", 4);
+  ViewPlan plan;
+  plan.recording = {file_};
+  const RunningView view(NodeConfig(), std::move(plan));
+  const auto late = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500);
+  while (std::chrono::steady_clock::now() < late) Fetch(view.page_port(), "/");
+  WebClient client(view.page_port());
+  client.Upgrade("/live");
+  client.SendText(R"({"kind":"play","paused":true,"rate":1})");
+  Json player;
+  while (const auto frame = client.ReadFrame()) {
+    if (frame->opcode != 1) continue;
+    player = Json::parse(frame->payload);
+    if (player.value("kind", "") == "player" && player.value("paused", false)) break;
+  }
+  ASSERT_TRUE(player.value("paused", false));
+  EXPECT_LT(player.value("position_s", 1.5), 1.0);
 }
 
 TEST_F(Recording, IsRefusedWithoutATopicThatIsShown) {
