@@ -182,6 +182,50 @@ TEST_F(Contacts, ThatNobodySeesAreReportedWhereverTheyMayBe) {
   EXPECT_NEAR(contacts[0].force_N.norm(), kOnLeg_N, contacts[0].ci95_N);
 }
 
+/// Placed by a search whose location leaves the force with this standard deviation: it is followed,
+/// and reported where its ellipsoid does not hold zero.
+class HiddenContactByPlace : public Contacts {
+ protected:
+  void Follow(double sigma_of_place_N) {
+    fit_.tracks().ReplaceHidden(
+        {{.rest_position_m = place_m_,
+          .force_covariance_N2 = std::pow(sigma_of_place_N, 2) * Eigen::Matrix3d::Identity()}});
+    Fit(FrameOf(Solve(kForce_N)));
+    report_.Judge(t_s_, /*begins=*/true, &fit_);
+    ASSERT_EQ(fit_.sites().size(), 1u);
+    EXPECT_TRUE(fit_.sites()[0].acts) << "at its place the force is significant";
+    EXPECT_NEAR(fit_.ForceAt(0).norm(), kForce_N, 0.1 * kForce_N);
+  }
+};
+
+TEST_F(HiddenContactByPlace, IsReportedAsHiddenWhereItsForceIsKnown) {
+  ASSERT_NO_FATAL_FAILURE(Follow(0.05 * kForce_N));
+  EXPECT_FALSE(report_.HoldsZero(fit_, 0));
+  const std::vector<ContactForce> contacts = report_.Contacts(fit_);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].name, "hidden_1");
+  EXPECT_EQ(contacts[0].status.code(), StatusCode::kHidden);
+  EXPECT_NEAR(contacts[0].force_N.norm(), kForce_N, contacts[0].ci95_N);
+}
+
+TEST_F(HiddenContactByPlace, IsLeftOutAndFollowedWhereItsPlaceLeavesTheForceOpen) {
+  ASSERT_NO_FATAL_FAILURE(Follow(0.5 * kForce_N));
+  EXPECT_TRUE(report_.HoldsZero(fit_, 0));
+  EXPECT_TRUE(report_.Contacts(fit_).empty());
+}
+
+/// An image then shows what pushes there.
+TEST_F(HiddenContactByPlace, IsReportedAsSeenOnceItIsSeen) {
+  ASSERT_NO_FATAL_FAILURE(Follow(0.5 * kForce_N));
+  Fit(SeenFrameOf(Solve(kForce_N)));
+  report_.Judge(t_s_, false, &fit_);
+  ASSERT_EQ(fit_.sites().size(), 1u) << "it is the hidden one";
+  const std::vector<ContactForce> contacts = report_.Contacts(fit_);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].name, "finger");
+  EXPECT_NE(contacts[0].status.code(), StatusCode::kHidden);
+}
+
 /// One that nobody sees, held still: the squares of its interval and of its error, m^2, in the
 /// first frame and after seven.
 class HeldContact : public Contacts {
