@@ -93,7 +93,9 @@ ContactReport::ContactReport(const ShapeConfig& config, double force_relative_si
 
 /// At its location: the test is against no force, where a location has no meaning. A hidden contact
 /// is the best of many candidates, so that the chance is divided by their number.
+/// Where the body is fixed, say, a push is not determined and was not fitted: it tells nothing.
 double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const {
+  if (fit.fitter().fit().observability[site] == Observability::kNone) return 0.0;
   const bool hidden = fit.sites()[site].hidden;
   const double seen = fit.IsBiasFittedAlong() ? tuning_.significance_along : config_.significance;
   const double chance = hidden ? config_.hidden_significance / search_places_ : seen;
