@@ -76,8 +76,8 @@ class ShapeForceEstimator {
   void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
 
   /// The estimate stays valid until the next call. Visible contacts have their names and kOk,
-  /// kTangentialUnobservable or kUnobservable; hidden ones are called hidden_1, hidden_2 and have
-  /// kHidden.
+  /// kUncertain or kTangentialUnobservable; hidden ones are called hidden_1, hidden_2 and have
+  /// kHidden. A contact whose push the data do not determine, as on the clamp, is left out.
   const ForceEstimate& Update(const ShapeFrame& frame);
 
   /// Whether the frames with `untouched`, by epoch, were contact-free.
