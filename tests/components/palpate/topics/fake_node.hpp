@@ -36,13 +36,15 @@ class FakeNode {
   explicit FakeNode(const dds::ParticipantSettings& settings)
       : participant(settings, dds::LoadTopicTable({}, app::LoadYaml, app::ParseYaml)),
         loop(participant) {}
-  ~FakeNode() {
-    loop.Stop();
-    if (thread_.joinable()) thread_.join();
-  }
+  ~FakeNode() { Stop(); }
 
   void Run() {
     thread_ = std::thread([this] { loop.Run(); });
+  }
+  /// Ends the loop and its thread; to be called before that goes which its callbacks use.
+  void Stop() {
+    loop.Stop();
+    if (thread_.joinable()) thread_.join();
   }
 
   dds::Participant participant;
