@@ -62,6 +62,8 @@ class Registration {
   Eigen::Vector3f Ray(int u_px, int v_px) const {
     return rays_.col(ToIndex(v_px) * camera_.depth.width_px + u_px);
   }
+  /// What RegisterDepth gives one pixel of a frame of the camera's size.
+  float Depth_m(const rgbd::RgbdFrame& frame, int u_px, int v_px) const;
   const rgbd::RgbdCamera& camera() const { return camera_; }
 
  private:

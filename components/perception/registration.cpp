@@ -53,6 +53,24 @@ struct Lens {
   std::array<float, std::tuple_size_v<rgbd::Distortion>> k;
 };
 
+/// Depth in metres of a step of the depth image; NaN where it is none.
+class StepLaw {
+ public:
+  explicit StepLaw(const rgbd::RgbdCamera& camera)
+      : unit_m_(static_cast<float>(camera.depth_unit_m)),
+        invalid_m_(static_cast<float>(camera.invalid_value) * unit_m_) {}
+
+  float Z_m(std::uint16_t step) const {
+    const float here_m = static_cast<float>(step) * unit_m_;
+    const float valid_m = here_m == invalid_m_ ? kNan : here_m;
+    return valid_m > 0.0f ? valid_m : kNan;
+  }
+
+ private:
+  float unit_m_;
+  float invalid_m_;
+};
+
 }  // namespace
 
 Registration::Registration(const rgbd::RgbdCamera& camera, const RegistrationTuning& tuning)
@@ -110,17 +128,16 @@ Status Registration::RegisterDepth(const rgbd::RgbdFrame& frame,
     registered->color = rgbd::ColorImage(depth.width_px, depth.height_px);
     registered->color_known.assign(pixels, 0);
   }
-  const auto unit_m = static_cast<float>(camera_.depth_unit_m);
-  const float invalid_m = static_cast<float>(camera_.invalid_value) * unit_m;
+  const StepLaw law(camera_);
   const std::uint16_t* steps = frame.depth.values.data();
   float* z_m = registered->z_m.values.data();
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const float here_m = static_cast<float>(steps[i]) * unit_m;
-    const float valid_m = here_m == invalid_m ? kNan : here_m;
-    z_m[i] = valid_m > 0.0f ? valid_m : kNan;
-  }
+  for (std::size_t i = 0; i < pixels; ++i) z_m[i] = law.Z_m(steps[i]);
   for (const std::size_t pixel : blind_) z_m[pixel] = kNan;
   return status;
+}
+
+float Registration::Depth_m(const rgbd::RgbdFrame& frame, int u_px, int v_px) const {
+  return Ray(u_px, v_px).allFinite() ? StepLaw(camera_).Z_m(*frame.depth.Pixel(u_px, v_px)) : kNan;
 }
 
 void Registration::RegisterColor(const rgbd::RgbdFrame& frame, const Window& window,

@@ -39,12 +39,14 @@ std::string RangeText(const Config& config) {
 
 }  // namespace
 
-double MedianDepthRatio(const RegisteredFrame& frame, const PredictionView& prediction) {
+double MedianDepthRatio(const rgbd::RgbdFrame& frame, const Registration& registration,
+                        const PredictionView& prediction) {
   std::vector<double> ratios;
-  for (int v = 0; v < frame.z_m.height_px; ++v) {
-    for (int u = 0; u < frame.z_m.width_px; ++u) {
-      const float z_m = *frame.z_m.Pixel(u, v);
-      if (!(z_m > 0.0f) || !prediction.Covers(u, v)) continue;
+  for (int v = 0; v < frame.depth.height_px; ++v) {
+    for (int u = 0; u < frame.depth.width_px; ++u) {
+      if (!prediction.Covers(u, v)) continue;
+      const float z_m = registration.Depth_m(frame, u, v);
+      if (!(z_m > 0.0f)) continue;
       ratios.push_back(static_cast<double>(z_m / prediction.Z_m(u, v)));
     }
   }

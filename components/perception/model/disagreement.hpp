@@ -22,7 +22,8 @@ struct PixelCounts {
 
 /// Measured over predicted depth, median of the pixels where the robot is predicted, whatever their
 /// range; NaN: none has a depth.
-double MedianDepthRatio(const RegisteredFrame& frame, const PredictionView& prediction);
+double MedianDepthRatio(const rgbd::RgbdFrame& frame, const Registration& registration,
+                        const PredictionView& prediction);
 
 /// Why a frame does not show the predicted robot: the value, the rule, what may be wrong. `ratio`
 /// is MedianDepthRatio.

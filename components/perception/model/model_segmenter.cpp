@@ -29,7 +29,6 @@ struct ModelSegmenter::Parts {
   void TakeRange();
   void ReadRegion(const rgbd::RgbdFrame& raw);
   void UpdateBackground(bool predicted);
-  double DepthRatio(const rgbd::RgbdFrame& raw);
   Status ExplainNothingInRange(const rgbd::RgbdFrame& raw, const PredictedSurface* predicted);
   void FitPrediction(const PredictedSurface& predicted, PredictionView::Fitting fitting);
   Status SegmentByPrediction(const rgbd::RgbdFrame& raw, const PredictedSurface& predicted);
@@ -155,7 +154,8 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   prediction.Measure(registration, &region);
   classifier.ClassifyByDistance(registration, background, &region);
   if (const auto pixels = classifier.FindDisagreement(prediction, region)) {
-    return Status(StatusCode::kNoRobotSeen, Disagreement(*pixels, DepthRatio(raw), config));
+    return Status(StatusCode::kNoRobotSeen,
+                  Disagreement(*pixels, MedianDepthRatio(raw, registration, prediction), config));
   }
   const bool classify_colors = has_color && classifier.PrepareColors(frame, region, &result.notes);
   if (classify_colors) classifier.ClassifyByColor(frame, &region);
@@ -166,16 +166,10 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   return status;
 }
 
-/// For messages. The depths are registered again, as those out of range were dropped.
-double ModelSegmenter::Parts::DepthRatio(const rgbd::RgbdFrame& raw) {
-  if (!registration.RegisterDepth(raw, &frame).ok()) return std::nan("");
-  return MedianDepthRatio(frame, prediction);
-}
-
 Status ModelSegmenter::Parts::ExplainNothingInRange(const rgbd::RgbdFrame& raw,
                                                     const PredictedSurface* predicted) {
   const bool rendered = predicted != nullptr && prediction.Render(*predicted).ok();
-  const double ratio = rendered ? DepthRatio(raw) : std::nan("");
+  const double ratio = rendered ? MedianDepthRatio(raw, registration, prediction) : std::nan("");
   return Status(StatusCode::kNoRobotSeen, NothingInRange(result.rejected, ratio, config));
 }
 

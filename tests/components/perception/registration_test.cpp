@@ -140,6 +140,28 @@ TEST(Registration, FollowsTheLensOfTheColorCamera) {
   }
 }
 
+TEST(Registration, GivesTheDepthOfOnePixelAsItDoesAll) {
+  rgbd::RgbdCamera camera = TwoCameras();
+  camera.invalid_value = 7;
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
+  *frame.depth.Pixel(3, 2) = 7;
+  *frame.depth.Pixel(4, 2) = 0;
+  const Registration registration(camera);
+  RegisteredFrame whole;
+  ASSERT_TRUE(registration.RegisterDepth(frame, &whole).ok());
+  int seen = 0;
+  for (int v = 0; v < camera.depth.height_px; ++v) {
+    for (int u = 0; u < camera.depth.width_px; ++u) {
+      const float all_m = *whole.z_m.Pixel(u, v), one_m = registration.Depth_m(frame, u, v);
+      ASSERT_TRUE(all_m == one_m || (std::isnan(all_m) && std::isnan(one_m))) << u << ", " << v;
+      seen += one_m > 0.0f ? 1 : 0;
+    }
+  }
+  EXPECT_TRUE(std::isnan(registration.Depth_m(frame, 3, 2)));
+  EXPECT_TRUE(std::isnan(registration.Depth_m(frame, 4, 2)));
+  EXPECT_GT(seen, 0);
+}
+
 TEST(Registration, RegistersAPartAsItDoesTheWhole) {
   const rgbd::RgbdCamera camera = TwoCameras();
   rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
