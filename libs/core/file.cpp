@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "libs/core/error.hpp"
+#include "libs/core/large_pages.hpp"
 
 namespace palpate {
 
@@ -39,6 +40,10 @@ std::string ReadFile(const std::filesystem::path& file) {
   const FileHandle handle(std::fopen(file.c_str(), "rb"));
   if (handle == nullptr) throw InputError({file.string()}, "cannot be read: " + Cause());
   std::string bytes;
+  std::error_code unknown_size;  // of a pipe
+  const auto size = std::filesystem::file_size(file, unknown_size);
+  if (!unknown_size) bytes.reserve(size);
+  AdviseLargePages(bytes);
   std::string block(1 << 16, '\0');
   while (const size_t count = std::fread(block.data(), 1, block.size(), handle.get())) {
     bytes.append(block, 0, count);

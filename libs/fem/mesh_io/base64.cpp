@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include "libs/core/large_pages.hpp"
+
 namespace palpate::fem::mesh_io {
 
 namespace {
@@ -66,15 +68,36 @@ bool Base64Decoder::DecodeQuad() {
   return true;
 }
 
+size_t Base64Decoder::DecodeRun(size_t at_most, char* out) {
+  const size_t groups = std::min(at_most, (text_.size() - position_) / 4);
+  for (size_t group = 0; group < groups; ++group) {
+    const char* letters = text_.data() + position_;
+    const auto value = [letters](size_t k) -> int {
+      return kValues[static_cast<uint8_t>(letters[k])];
+    };
+    const int bits = value(0) << 18 | value(1) << 12 | value(2) << 6 | value(3);
+    if (bits < 0) return group;  // white space, padding or damage
+    *out++ = static_cast<char>(bits >> 16);
+    *out++ = static_cast<char>(bits >> 8 & 255);
+    *out++ = static_cast<char>(bits & 255);
+    position_ += 4;
+  }
+  return groups;
+}
+
 bool Base64Decoder::Read(size_t count, std::string* out) {
   if (count > UpperBound()) return false;
-  out->reserve(out->size() + count);
-  while (count > 0) {
+  size_t end = out->size();
+  out->reserve(end + count);
+  AdviseLargePages(*out);
+  out->resize(end + count);
+  while (end < out->size()) {
+    if (pending_.empty()) end += 3 * DecodeRun((out->size() - end) / 3, out->data() + end);
+    if (end == out->size()) break;
     if (pending_.empty() && !DecodeQuad()) return false;
-    const size_t taken = std::min(count, pending_.size());
-    out->append(pending_, 0, taken);
+    const size_t taken = pending_.copy(out->data() + end, out->size() - end);
     pending_.erase(0, taken);
-    count -= taken;
+    end += taken;
   }
   return true;
 }

@@ -29,6 +29,8 @@ class Base64Decoder {
 
  private:
   bool DecodeQuad();
+  /// Decodes as many whole groups of four letters in a row as there are, `at_most` at most.
+  size_t DecodeRun(size_t at_most, char* out);
 
   std::string_view text_;
   size_t position_ = 0;

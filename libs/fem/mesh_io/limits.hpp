@@ -16,5 +16,8 @@ inline constexpr std::int64_t kMaxCount = std::numeric_limits<int>::max();
 inline constexpr std::int64_t kMaxTag = std::numeric_limits<std::int64_t>::max();
 /// What separates the words of a file that is text.
 inline constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
+constexpr bool IsWhiteSpace(char letter) {
+  return letter == ' ' || (letter >= '\t' && letter <= '\r');
+}
 
 }  // namespace palpate::fem::mesh_io

@@ -12,6 +12,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/large_pages.hpp"
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/orientation.hpp"
 
@@ -32,6 +33,15 @@ bool AreWholeNumbers(std::span<const double> values) {
 }
 
 }  // namespace
+
+void MeshBuilder::ExpectNodes(int64_t count) {
+  coordinates_.reserve(coordinates_.size() + 3 * static_cast<size_t>(count));
+}
+
+void MeshBuilder::ExpectCells(int64_t cell_count, int64_t node_count) {
+  tet_of_vtk_cell_.reserve(tet_of_vtk_cell_.size() + static_cast<size_t>(cell_count));
+  cells_.reserve(cells_.size() + static_cast<size_t>(node_count));
+}
 
 void MeshBuilder::AddNode(double x, double y, double z) {
   if (NodeCount() >= kMaxNodes) {
@@ -156,11 +166,15 @@ TetMesh MeshBuilder::Finish(double metres_per_unit, std::vector<std::string>* no
   if (tet_count_ == 0) throw InputError(file_ + ": holds no tetrahedron");
   if (merge_equal_tets_ && groups_.size() > 1) KeepOneOfEqualTets();
   TetMesh mesh;
+  mesh.nodes_m.resize(3, NodeCount());
+  AdviseLargePages(mesh.nodes_m.data(), sizeof(double) * coordinates_.size());
   mesh.nodes_m =
       metres_per_unit * Eigen::Map<const Eigen::Matrix3Xd>(coordinates_.data(), 3, NodeCount());
   if (!mesh.nodes_m.allFinite()) {
     throw InputError(file_ + ": a coordinate is not finite once it is in metres");
   }
+  mesh.cells.resize(nodes_per_cell_, tet_count_);
+  AdviseLargePages(mesh.cells.data(), sizeof(int) * cells_.size());
   mesh.cells = Eigen::Map<const Eigen::MatrixXi>(cells_.data(), nodes_per_cell_, tet_count_);
   mesh.groups = TakeGroups();
   const std::string note = OrientCells(&mesh);

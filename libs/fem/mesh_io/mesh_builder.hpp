@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "libs/core/large_pages.hpp"
 #include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::fem::mesh_io {
@@ -20,6 +21,10 @@ class MeshBuilder {
 
   const std::string& file() const { return file_; }
   int64_t NodeCount() const { return static_cast<int64_t>(coordinates_.size() / 3); }
+
+  /// Makes room for nodes and cells that the file surely holds.
+  void ExpectNodes(int64_t count);
+  void ExpectCells(int64_t cell_count, int64_t node_count);
 
   /// A node, in the unit of the file. Throws InputError where there are too many for an int.
   void AddNode(double x, double y, double z);
@@ -55,11 +60,11 @@ class MeshBuilder {
   std::vector<CellGroup> TakeGroups();
 
   std::string file_;
-  std::vector<double> coordinates_;  ///< x y z of each node, unit of the file
-  std::vector<int> cells_;           ///< 4 or 10 indices for each tetrahedron
+  LargeVector<double> coordinates_;  ///< x y z of each node, unit of the file
+  LargeVector<int> cells_;           ///< 4 or 10 indices for each tetrahedron
   std::vector<CellGroup> groups_;
   std::map<std::string, int> group_of_name_;
-  std::vector<int> tet_of_vtk_cell_;  ///< -1: a cell of lower dimension
+  LargeVector<int> tet_of_vtk_cell_;  ///< -1: a cell of lower dimension
   int tet_count_ = 0;
   int nodes_per_cell_ = 0;  ///< 0: no tetrahedron yet
   bool merge_equal_tets_ = false;

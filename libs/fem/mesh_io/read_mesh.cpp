@@ -4,13 +4,12 @@
 #include "libs/fem/mesh_io/read_mesh.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/mesh_builder.hpp"
 #include "libs/fem/mesh_io/mesh_kind.hpp"
@@ -27,14 +26,9 @@ std::string LoadBytes(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) {
     throw InputError(file.string() + ": not a regular file");
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  if (!stream || std::filesystem::file_size(file, error) == 0) {
-    throw InputError(file.string() + (stream ? ": the file is empty" : ": cannot be opened"));
-  }
-  bytes << stream.rdbuf();
-  if (!stream || !bytes) throw InputError(file.string() + ": cannot be read to its end");
-  return std::move(bytes).str();
+  std::string bytes = ReadFile(file);
+  if (bytes.empty()) throw InputError(file.string() + ": the file is empty");
+  return bytes;
 }
 
 using Reader = void (*)(std::string_view bytes, mesh_io::MeshBuilder* builder);

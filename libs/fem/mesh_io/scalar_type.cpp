@@ -24,23 +24,42 @@ Value Load(std::string_view bytes, bool swap) {
   return value;
 }
 
-/// Calls `use` with the value in its own type.
+/// Calls `use` with a null value of the type.
+template <typename Use>
+auto WithType(ScalarType type, Use use) {
+  switch (type) {
+    case ScalarType::kInt8: return use(int8_t{});
+    case ScalarType::kUInt8: return use(uint8_t{});
+    case ScalarType::kInt16: return use(int16_t{});
+    case ScalarType::kUInt16: return use(uint16_t{});
+    case ScalarType::kInt32: return use(int32_t{});
+    case ScalarType::kUInt32: return use(uint32_t{});
+    case ScalarType::kInt64: return use(int64_t{});
+    case ScalarType::kUInt64: return use(uint64_t{});
+    case ScalarType::kFloat32: return use(float{});
+    case ScalarType::kFloat64: break;
+  }
+  return use(double{});
+}
+
+/// The first value in its own type, handed to `use`.
 template <typename Use>
 auto Visit(ScalarType type, std::string_view bytes, bool swap, Use use) {
   PALPATE_CHECK(bytes.size() >= SizeInBytes(type), bytes.size());
-  switch (type) {
-    case ScalarType::kInt8: return use(Load<int8_t>(bytes, swap));
-    case ScalarType::kUInt8: return use(Load<uint8_t>(bytes, swap));
-    case ScalarType::kInt16: return use(Load<int16_t>(bytes, swap));
-    case ScalarType::kUInt16: return use(Load<uint16_t>(bytes, swap));
-    case ScalarType::kInt32: return use(Load<int32_t>(bytes, swap));
-    case ScalarType::kUInt32: return use(Load<uint32_t>(bytes, swap));
-    case ScalarType::kInt64: return use(Load<int64_t>(bytes, swap));
-    case ScalarType::kUInt64: return use(Load<uint64_t>(bytes, swap));
-    case ScalarType::kFloat32: return use(Load<float>(bytes, swap));
-    case ScalarType::kFloat64: break;
-  }
-  return use(Load<double>(bytes, swap));
+  return WithType(type, [&](auto null) { return use(Load<decltype(null)>(bytes, swap)); });
+}
+
+template <typename Value>
+void DecodeAll(ScalarType type, std::string_view bytes, bool swap, std::span<Value> values) {
+  PALPATE_CHECK(bytes.size() / SizeInBytes(type) >= values.size(), bytes.size());
+  WithType(type, [&](auto null) {
+    using Stored = decltype(null);
+    const char* from = bytes.data();
+    for (Value& value : values) {
+      value = static_cast<Value>(Load<Stored>({from, sizeof(Stored)}, swap));
+      from += sizeof(Stored);
+    }
+  });
 }
 
 }  // namespace
@@ -77,6 +96,15 @@ std::optional<int64_t> DecodeInteger(ScalarType type, std::string_view bytes, bo
     return static_cast<int64_t>(value);
   }
   return Visit(type, bytes, swap, [](auto value) { return static_cast<int64_t>(value); });
+}
+
+void DecodeReals(ScalarType type, std::string_view bytes, bool swap, std::span<double> values) {
+  DecodeAll(type, bytes, swap, values);
+}
+
+void DecodeIntegers(ScalarType type, std::string_view bytes, bool swap, std::span<int64_t> values) {
+  PALPATE_CHECK(IsInteger(type));
+  DecodeAll(type, bytes, swap, values);
 }
 
 }  // namespace palpate::fem::mesh_io

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace palpate::fem::mesh_io {
@@ -31,5 +32,10 @@ bool IsInteger(ScalarType type);
 double DecodeReal(ScalarType type, std::string_view bytes, bool swap);
 /// The same for integer types; empty for an unsigned value that no int64 holds.
 std::optional<int64_t> DecodeInteger(ScalarType type, std::string_view bytes, bool swap);
+
+/// The numbers of a whole array, as many as `values` has room for. Not finite ones stay as they
+/// are; an unsigned value that no int64 holds becomes negative.
+void DecodeReals(ScalarType type, std::string_view bytes, bool swap, std::span<double> values);
+void DecodeIntegers(ScalarType type, std::string_view bytes, bool swap, std::span<int64_t> values);
 
 }  // namespace palpate::fem::mesh_io

@@ -13,17 +13,18 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/large_pages.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/scalar_type.hpp"
 #include "libs/fem/mesh_io/vtu_bytes.hpp"
+#include "libs/fem/mesh_io/vtu_text.hpp"
 
 namespace palpate::fem::mesh_io {
 
 namespace {
 
 using tinyxml2::XMLElement;
-using tinyxml2::XMLText;
 
 std::optional<ScalarType> FindType(const XMLElement& array) {
   static constexpr auto kTypes = std::to_array<std::pair<std::string_view, ScalarType>>({
@@ -52,11 +53,11 @@ ScalarType TypeOf(const XMLElement& array, const VtuStorage& storage) {
               name == nullptr ? "has no attribute 'type'" : "unknown type '" + Excerpt(name) + "'");
 }
 
-/// The line of `position` in a text whose first word stands on the line of the node.
-int LineAt(const XMLText& node, std::string_view text, size_t position) {
-  const size_t first = std::min(text.find_first_not_of(kWhiteSpace), position);
-  const auto between = text.substr(first, position - first);
-  return node.GetLineNum() + static_cast<int>(std::count(between.begin(), between.end(), '\n'));
+/// The line of `position` in the text.
+int LineAt(const ArrayText& array, size_t position) {
+  const size_t first = std::min(array.text.find_first_not_of(kWhiteSpace), position);
+  const auto between = array.text.substr(first, position - first);
+  return array.line + static_cast<int>(std::count(between.begin(), between.end(), '\n'));
 }
 
 bool ParseWord(std::string_view word, double* value) { return ParseFinite(word, value); }
@@ -67,23 +68,27 @@ bool ParseWord(std::string_view word, int64_t* value) {
 }
 
 template <typename Value>
-std::vector<Value> ParseText(const XMLElement& array, const VtuStorage& storage, int64_t count) {
-  const XMLText* node = ArrayText(array);
-  const std::string_view text = node == nullptr ? std::string_view() : node->Value();
-  std::vector<Value> values;
+LargeVector<Value> ParseText(const XMLElement& array, const VtuStorage& storage, int64_t count) {
+  const ArrayText source = TextOfArray(array, storage);
+  const std::string_view text = source.text;
+  LargeVector<Value> values;
   values.reserve(std::min(static_cast<size_t>(count), text.size() / 2 + 1));
-  for (size_t start = text.find_first_not_of(kWhiteSpace); start != std::string_view::npos;) {
-    const size_t end = std::min(text.find_first_of(kWhiteSpace, start), text.size());
+  const auto skip = [text](size_t position, bool white) {
+    while (position < text.size() && IsWhiteSpace(text[position]) == white) ++position;
+    return position;
+  };
+  for (size_t start = skip(0, true); start < text.size();) {
+    const size_t end = skip(start, false);
     Value value{};
     if (!ParseWord(text.substr(start, end - start), &value)) {
-      const SourceLocation where{storage.file, LineAt(*node, text, start), 0};
+      const SourceLocation where{storage.file, LineAt(source, start), 0};
       throw InputError(
           where, "array '" + ArrayName(array) + "': '" +
                      std::string(text.substr(start, std::min<size_t>(end - start, 40))) +
                      "' is not " + (std::is_integral_v<Value> ? "an integer" : "a finite number"));
     }
     values.push_back(value);
-    start = text.find_first_not_of(kWhiteSpace, end);
+    start = skip(end, true);
   }
   if (values.size() != static_cast<size_t>(count)) {
     FailAtArray(
@@ -100,35 +105,37 @@ bool IsAscii(const XMLElement& array) {
 
 }  // namespace
 
-std::vector<double> ReadRealArray(const XMLElement& array, const VtuStorage& storage,
+LargeVector<double> ReadRealArray(const XMLElement& array, const VtuStorage& storage,
                                   int64_t count) {
   const ScalarType type = TypeOf(array, storage);
   if (IsAscii(array)) return ParseText<double>(array, storage, count);
   const size_t size = SizeInBytes(type);
-  const std::string bytes = ReadBinaryArray(array, storage, static_cast<uint64_t>(count), size);
-  std::vector<double> values(static_cast<size_t>(count));
-  for (size_t k = 0; k < values.size(); ++k) {
-    values[k] = DecodeReal(type, std::string_view(bytes).substr(k * size, size), storage.swap);
-    if (!std::isfinite(values[k])) {
-      FailAtArray(array, storage, "number " + std::to_string(k) + " is not finite");
-    }
+  const ArrayBytes bytes(array, storage, static_cast<uint64_t>(count), size);
+  LargeVector<double> values(static_cast<size_t>(count));
+  DecodeReals(type, bytes.view(), storage.swap, values);
+  const auto bad = std::find_if_not(values.begin(), values.end(),
+                                    [](double value) { return std::isfinite(value); });
+  if (bad != values.end()) {
+    FailAtArray(array, storage,
+                "number " + std::to_string(bad - values.begin()) + " is not finite");
   }
   return values;
 }
 
-std::vector<int64_t> ReadIntegerArray(const XMLElement& array, const VtuStorage& storage,
+LargeVector<int64_t> ReadIntegerArray(const XMLElement& array, const VtuStorage& storage,
                                       int64_t count) {
   const ScalarType type = TypeOf(array, storage);
   if (!IsInteger(type)) FailAtArray(array, storage, "must hold integers");
   if (IsAscii(array)) return ParseText<int64_t>(array, storage, count);
   const size_t size = SizeInBytes(type);
-  const std::string bytes = ReadBinaryArray(array, storage, static_cast<uint64_t>(count), size);
-  std::vector<int64_t> values(static_cast<size_t>(count));
-  for (size_t k = 0; k < values.size(); ++k) {
-    const auto value =
-        DecodeInteger(type, std::string_view(bytes).substr(k * size, size), storage.swap);
-    if (!value) FailAtArray(array, storage, "number " + std::to_string(k) + " is above 2^63");
-    values[k] = *value;
+  const ArrayBytes bytes(array, storage, static_cast<uint64_t>(count), size);
+  LargeVector<int64_t> values(static_cast<size_t>(count));
+  DecodeIntegers(type, bytes.view(), storage.swap, values);
+  if (type != ScalarType::kUInt64) return values;
+  const auto bad = std::find_if(values.begin(), values.end(), [](int64_t v) { return v < 0; });
+  if (bad != values.end()) {
+    FailAtArray(array, storage,
+                "number " + std::to_string(bad - values.begin()) + " is above 2^63");
   }
   return values;
 }

@@ -5,10 +5,13 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <optional>
 
+#include "libs/core/large_pages.hpp"
 #include "libs/fem/mesh_io/base64.hpp"
 #include "libs/fem/mesh_io/scalar_type.hpp"
+#include "libs/fem/mesh_io/vtu_text.hpp"
 
 namespace palpate::fem::mesh_io {
 
@@ -23,8 +26,7 @@ class ArrayStream {
       : array_(array), storage_(storage) {
     const std::string_view format = array.Attribute("format");
     if (format == "binary") {
-      const tinyxml2::XMLText* text = ArrayText(array);
-      base64_.emplace(text == nullptr ? std::string_view() : text->Value());
+      base64_.emplace(TextOfArray(array, storage).text);
       inline_ = true;
     } else if (format == "appended") {
       raw_ = AppendedFromOffset();
@@ -34,21 +36,25 @@ class ArrayStream {
     }
   }
 
-  std::string Read(uint64_t count, const char* what) {
-    std::string bytes;
+  /// The next bytes: in the file itself, or decoded into the empty `buffer`.
+  std::string_view Read(uint64_t count, const char* what, std::string* buffer) {
     if (base64_) {
-      if (!base64_->Read(count, &bytes)) Fail(std::string("base64 ends or is damaged in ") + what);
-      return bytes;
+      if (!base64_->Read(count, buffer)) Fail(std::string("base64 ends or is damaged in ") + what);
+      return *buffer;
     }
     if (count > raw_.size()) Fail(std::string("the data end within ") + what);
-    bytes = raw_.substr(0, count);
+    const std::string_view bytes = raw_.substr(0, count);
     raw_.remove_prefix(count);
     return bytes;
   }
 
+  /// The most bytes that can still come.
+  uint64_t UpperBound() const { return base64_ ? base64_->UpperBound() : raw_.size(); }
+
   uint64_t ReadHeader(const char* what) {
     const ScalarType type = storage_.wide_header ? ScalarType::kUInt64 : ScalarType::kUInt32;
-    const auto value = DecodeInteger(type, Read(SizeInBytes(type), what), storage_.swap);
+    std::string buffer;
+    const auto value = DecodeInteger(type, Read(SizeInBytes(type), what, &buffer), storage_.swap);
     if (!value) Fail(std::string(what) + " is above 2^63");
     return static_cast<uint64_t>(*value);
   }
@@ -83,13 +89,13 @@ class ArrayStream {
   bool inline_ = false;
 };
 
-std::string ReadPlain(ArrayStream* stream, uint64_t expected_bytes) {
+std::string_view ReadPlain(ArrayStream* stream, uint64_t expected_bytes, std::string* decoded) {
   const uint64_t size = stream->ReadHeader("the size");
   if (size != expected_bytes) {
     stream->Fail("holds " + std::to_string(size) + " bytes instead of " +
                  std::to_string(expected_bytes));
   }
-  return stream->Read(size, "the numbers");
+  return stream->Read(size, "the numbers", decoded);
 }
 
 struct BlockSizes {
@@ -117,46 +123,35 @@ BlockSizes ReadBlockSizes(ArrayStream* stream, uint64_t expected_bytes) {
   return sizes;
 }
 
-std::string ReadCompressed(ArrayStream* stream, uint64_t expected_bytes) {
+void ReadCompressed(ArrayStream* stream, uint64_t expected_bytes, std::string* bytes) {
+  constexpr uint64_t kUsualRatio = 64;  // room for more is made as it comes
   const BlockSizes sizes = ReadBlockSizes(stream, expected_bytes);
-  std::string bytes;
+  bytes->reserve(std::min(expected_bytes, kUsualRatio * stream->UpperBound()) + 1);
+  AdviseLargePages(*bytes);
+  std::string buffer;
   for (size_t block = 0; block < sizes.packed.size(); ++block) {
     const uint64_t size = block + 1 == sizes.packed.size() ? sizes.last : sizes.full;
-    const std::string packed = stream->Read(sizes.packed[block], "a packed block");
-    if (!Unpack(stream->packing(), packed, size, &bytes)) {
+    buffer.clear();
+    const auto packed = stream->Read(sizes.packed[block], "a packed block", &buffer);
+    if (!Unpack(stream->packing(), packed, size, bytes)) {
       stream->Fail("block " + std::to_string(block) + " is damaged or of another size");
     }
   }
-  return bytes;
 }
 
 }  // namespace
 
-std::string ReadBinaryArray(const XMLElement& array, const VtuStorage& storage, uint64_t count,
-                            size_t item_size) {
+ArrayBytes::ArrayBytes(const XMLElement& array, const VtuStorage& storage, uint64_t count,
+                       size_t item_size) {
   ArrayStream stream(array, storage);
   const uint64_t expected_bytes = count * item_size;
-  std::string bytes = storage.packing == Packing::kNone ? ReadPlain(&stream, expected_bytes)
-                                                        : ReadCompressed(&stream, expected_bytes);
-  stream.Finish();
-  return bytes;
-}
-
-const tinyxml2::XMLText* ArrayText(const XMLElement& array) {
-  for (const auto* node = array.FirstChild(); node != nullptr; node = node->NextSibling()) {
-    const tinyxml2::XMLText* text = node->ToText();
-    if (text == nullptr) continue;
-    if (std::string_view(text->Value()).find_first_not_of(" \t\r\n") != std::string_view::npos) {
-      return text;
-    }
+  if (storage.packing == Packing::kNone) {
+    view_ = ReadPlain(&stream, expected_bytes, &decoded_);
+  } else {
+    ReadCompressed(&stream, expected_bytes, &decoded_);
+    view_ = decoded_;
   }
-  return nullptr;
-}
-
-std::string ArrayName(const XMLElement& array) {
-  if (const char* name = array.Attribute("Name")) return name;
-  const tinyxml2::XMLNode* parent = array.Parent();
-  return parent != nullptr && parent->ToElement() != nullptr ? parent->ToElement()->Name() : "";
+  stream.Finish();
 }
 
 }  // namespace palpate::fem::mesh_io

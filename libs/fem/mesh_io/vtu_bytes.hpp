@@ -5,12 +5,9 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "libs/fem/mesh_io/vtu_array.hpp"
-
-namespace tinyxml2 {
-class XMLText;
-}
 
 namespace palpate::fem::mesh_io {
 
@@ -19,13 +16,18 @@ namespace palpate::fem::mesh_io {
 ///
 /// As VTK stores them (vtkXMLWriter): [size in bytes][data], or, compressed, [number of blocks]
 /// [block size][size of the last block, 0: full][packed size of each block][packed blocks].
-std::string ReadBinaryArray(const tinyxml2::XMLElement& array, const VtuStorage& storage,
-                            uint64_t count, size_t item_size);
+class ArrayBytes {
+ public:
+  ArrayBytes(const tinyxml2::XMLElement& array, const VtuStorage& storage, uint64_t count,
+             size_t item_size);
+  ArrayBytes(const ArrayBytes&) = delete;
+  ArrayBytes& operator=(const ArrayBytes&) = delete;
 
-/// The text between the tags, which is the first that is not blank; nullptr where there is none.
-const tinyxml2::XMLText* ArrayText(const tinyxml2::XMLElement& array);
+  std::string_view view() const { return view_; }
 
-/// The attribute Name, or the name of the element around an array that has none.
-std::string ArrayName(const tinyxml2::XMLElement& array);
+ private:
+  std::string decoded_;    ///< empty where they stand in the file as they are
+  std::string_view view_;  ///< of the file, or of `decoded_`
+};
 
 }  // namespace palpate::fem::mesh_io

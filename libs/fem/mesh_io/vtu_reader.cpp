@@ -12,6 +12,7 @@
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/vtu_array.hpp"
+#include "libs/fem/mesh_io/vtu_text.hpp"
 
 namespace palpate::fem::mesh_io {
 
@@ -25,10 +26,10 @@ using tinyxml2::XMLElement;
                    "<" + std::string(element.Name()) + "> " + message);
 }
 
-/// The file without its AppendedData, which are no XML where they are raw; those go to `storage`.
+/// The file without its numbers, which go to `storage`; AppendedData are no XML where they are raw.
 std::string CutAppendedData(std::string_view bytes, VtuStorage* storage) {
   const size_t element = bytes.find("<AppendedData");
-  if (element == std::string_view::npos) return std::string(bytes);
+  if (element == std::string_view::npos) return CutArrayTexts(bytes, &storage->texts);
   const size_t tag_end = bytes.find('>', element);
   const size_t underscore = bytes.find('_', tag_end);
   const size_t closing = bytes.rfind("</AppendedData");
@@ -37,7 +38,8 @@ std::string CutAppendedData(std::string_view bytes, VtuStorage* storage) {
     throw InputError(storage->file + ": <AppendedData> is not complete; the file is cut off");
   }
   storage->appended = bytes.substr(underscore + 1, closing - underscore - 1);
-  return std::string(bytes.substr(0, tag_end + 1)) + std::string(bytes.substr(closing));
+  return CutArrayTexts(bytes.substr(0, tag_end + 1), &storage->texts) +
+         std::string(bytes.substr(closing));
 }
 
 std::string_view AttributeOr(const XMLElement& element, const char* name, const char* fallback) {
@@ -113,7 +115,8 @@ void ReadPoints(const XMLElement& piece, const VtuStorage& storage, int64_t coun
   if (AttributeOr(array, "NumberOfComponents", "3") != "3") {
     FailAtArray(array, storage, "must have 3 components");
   }
-  const std::vector<double> xyz = ReadRealArray(array, storage, 3 * count);
+  const LargeVector<double> xyz = ReadRealArray(array, storage, 3 * count);
+  builder->ExpectNodes(count);
   for (size_t k = 0; k < xyz.size(); k += 3) builder->AddNode(xyz[k], xyz[k + 1], xyz[k + 2]);
 }
 
@@ -121,15 +124,15 @@ void ReadCells(const XMLElement& piece, const VtuStorage& storage, int64_t count
                int64_t first_node, MeshBuilder* builder) {
   const XMLElement& cells = Child(piece, storage, "Cells");
   const XMLElement& offset_array = NamedArray(cells, storage, "offsets");
-  const std::vector<int64_t> types =
+  const LargeVector<int64_t> types =
       ReadIntegerArray(NamedArray(cells, storage, "types"), storage, count);
-  const std::vector<int64_t> offsets = ReadIntegerArray(offset_array, storage, count);
+  const LargeVector<int64_t> offsets = ReadIntegerArray(offset_array, storage, count);
   int64_t previous = 0;
   for (const int64_t offset : offsets) {
     if (offset < previous || offset > kMaxCount) FailAtArray(offset_array, storage, "must rise");
     previous = offset;
   }
-  std::vector<int64_t> nodes =
+  LargeVector<int64_t> nodes =
       ReadIntegerArray(NamedArray(cells, storage, "connectivity"), storage, previous);
   for (int64_t& node : nodes) {
     if (node < 0 || node >= builder->NodeCount() - first_node) {
@@ -139,6 +142,7 @@ void ReadCells(const XMLElement& piece, const VtuStorage& storage, int64_t count
     }
     node += first_node;
   }
+  builder->ExpectCells(count, previous);
   size_t start = 0;
   for (size_t cell = 0; cell < types.size(); ++cell) {
     const size_t end = static_cast<size_t>(offsets[cell]);
@@ -156,7 +160,7 @@ void ReadCellData(const XMLElement& piece, const VtuStorage& storage, int64_t co
        array = array->NextSiblingElement("DataArray")) {
     const std::string_view components = AttributeOr(*array, "NumberOfComponents", "1");
     if (components != "1" || !IsIntegerArray(*array)) continue;
-    const std::vector<int64_t> integers = ReadIntegerArray(*array, storage, count);
+    const LargeVector<int64_t> integers = ReadIntegerArray(*array, storage, count);
     const std::vector<double> values(integers.begin(), integers.end());
     builder->AddVtkCellData(std::string(AttributeOr(*array, "Name", "cells")),
                             builder->VtkCellCount() - count, values);

@@ -6,6 +6,7 @@
 #include <lz4.h>
 #include <lzma.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "libs/core/index.hpp"
@@ -98,6 +99,35 @@ TEST(MeshFormats, VtuMayBePackedByLz4OrLzma) {
               HasSubstr("block 0 is damaged"));
   EXPECT_THAT(RefusalOf({"m.vtu", PackedVtu(mesh, "vtkBrotliCompressor", Lz4)}),
               HasSubstr("'vtkBrotliCompressor' is not read"));
+}
+
+TEST(MeshFormats, VtuMayHoldWhatXmlAllowsAroundItsNumbers) {
+  const TetMesh mesh = CubeMesh(2);
+  const std::string bytes = test::AsciiVtu(mesh);
+  const std::string comment = "<!-- <DataArray>1 2</DataArray> --><Points";
+  for (const std::string& file : {Replaced(bytes, "<Points", comment),
+                                  Replaced(bytes, "</DataArray>", "<!-- a --></DataArray>"),
+                                  Replaced(bytes, "</DataArray>", "&#32;</DataArray>"),
+                                  Replaced(bytes, "<DataArray ", "<DataArray note=\"a>b\" ")}) {
+    EXPECT_TRUE(test::SameMesh(ReadBytes({"m.vtu", file}), mesh)) << file;
+  }
+  std::string wrapped = PackedVtu(mesh, "vtkLZ4DataCompressor", Lz4);
+  wrapped.insert(wrapped.find("</DataArray>") - 10, "\n ");
+  EXPECT_TRUE(test::SameMesh(ReadBytes({"m.vtu", wrapped}), mesh));
+  EXPECT_THAT(RefusalOf({"m.vtu", Replaced(bytes, "</DataArray>",
+                                           " \x1A"
+                                           "0</DataArray>")}),
+              HasSubstr("is not"));
+}
+
+TEST(MeshFormats, VtuRefusalsCountTheLinesOfNumbersBefore) {
+  std::string bytes = Replaced(test::AsciiVtu(CubeMesh(2)), "</DataArray>", "\n\n\n</DataArray>");
+  const size_t start = bytes.find('>', bytes.find("Name=\"connectivity\"")) + 1;
+  bytes.insert(start, "\n\n x ");
+  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(start) + 2;
+  const auto line = std::count(bytes.begin(), place, '\n') + 1;
+  EXPECT_THAT(RefusalOf({"m.vtu", bytes}),
+              HasSubstr("m.vtu:" + std::to_string(line) + ": array 'connectivity': 'x'"));
 }
 
 TEST(MeshFormats, APackedBlockIsNeverLargerThanSoundOnesAre) {
