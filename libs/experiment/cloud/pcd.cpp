@@ -13,6 +13,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/text.hpp"
 #include "libs/experiment/cloud/cloud_builder.hpp"
 #include "libs/experiment/cloud/lzf.hpp"
 #include "libs/experiment/cloud/scalar.hpp"
@@ -134,9 +135,30 @@ class PcdReader {
       header_.width = Number(line, kMostPoints);
     } else if (key == "HEIGHT") {
       header_.height = Number(line, kMostPoints);
-    } else if (key != "VERSION" && key != "VIEWPOINT") {
+    } else if (key == "VIEWPOINT") {
+      CheckViewpoint(line);
+    } else if (key != "VERSION") {
       Refuse("'" + std::string(key.substr(0, 20)) + "' is no line of a PCD header");
     }
+  }
+
+  /// tx ty tz qw qx qy qz. The format calls it the viewpoint of acquisition and does not say
+  /// whether the points are in its frame; programs read it either way. Two have one meaning:
+  /// identity, and the half turn about x that PCL's grabbers write beside points of the optical
+  /// frame.
+  void CheckViewpoint(std::string_view line) const {
+    std::array<double, 7> values{};
+    for (double& value : values) {
+      if (!ParseFinite(TakeWord(&line), &value)) {
+        Refuse("VIEWPOINT is seven numbers: translation, and rotation as a quaternion w x y z");
+      }
+    }
+    const auto [tx, ty, tz, qw, qx, qy, qz] = values;
+    const bool at_origin = tx == 0.0 && ty == 0.0 && tz == 0.0;
+    if (at_origin && qy == 0.0 && qz == 0.0 && (qw == 0.0 || qx == 0.0)) return;
+    Refuse(
+        "the VIEWPOINT is not the camera, and PCD does not say which frame the points are in: "
+        "transform them into the camera's optical frame and write VIEWPOINT 0 0 0 1 0 0 0");
   }
 
   template <typename Use>

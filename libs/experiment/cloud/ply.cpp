@@ -3,6 +3,7 @@
 
 #include "libs/experiment/cloud/ply.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/text.hpp"
 #include "libs/experiment/cloud/cloud_builder.hpp"
 #include "libs/experiment/cloud/ply_header.hpp"
 #include "libs/experiment/cloud/scalar.hpp"
@@ -108,12 +110,58 @@ std::vector<std::optional<std::size_t>> PlacesOf(const PlyElement& vertex) {
   for (const PlyProperty& property : vertex.properties) {
     const auto wanted = std::find(kWanted.begin(), kWanted.end(), property.name);
     const auto place = static_cast<std::size_t>(wanted - kWanted.begin());
-    const bool byte = property.scalar.kind == Scalar::Kind::kUnsigned && property.scalar.bytes == 1;
-    const bool usable = wanted != kWanted.end() && !property.list && (place < 3 || byte);
+    const bool usable = wanted != kWanted.end() && !property.list;
     places.push_back(usable ? std::optional(place) : std::nullopt);
   }
   return places;
 }
+
+/// Colours as other programs store them: bytes, 16 bits, whole numbers from 0 to 255, or floating
+/// point from 0 to 1. Floating point above 1 somewhere in the cloud counts to 255.
+class ColorScale {
+ public:
+  explicit ColorScale(const PlyElement& vertex) {
+    for (const PlyProperty& property : vertex.properties) {
+      if (std::find(kWanted.begin() + 3, kWanted.end(), property.name) == kWanted.end()) continue;
+      is_float_ = is_float_ || property.scalar.kind == Scalar::Kind::kFloat;
+      is_wide_ = property.scalar.kind == Scalar::Kind::kUnsigned && property.scalar.bytes == 2;
+    }
+  }
+
+  /// A colour that is no number (of a point that is not seen) is black.
+  void Add(const Vertex& numbers) {
+    for (std::size_t channel = 3; channel < numbers.size(); ++channel) {
+      const double value = std::isfinite(numbers[channel]) ? numbers[channel] : 0.0;
+      least_ = std::min(least_, value);
+      greatest_ = std::max(greatest_, value);
+      values_.push_back(static_cast<float>(value));
+    }
+  }
+
+  std::vector<std::uint8_t> Bytes(const std::string& file) const {
+    const double full = is_wide_ ? 65535.0 : is_float_ && greatest_ <= 1.0 ? 1.0 : 255.0;
+    if (least_ < 0.0 || greatest_ > full) {
+      throw InputError(SourceLocation{file}, "a colour is " +
+                                                 FormatNumber(least_ < 0.0 ? least_ : greatest_) +
+                                                 ": from 0 to 255 is expected, or from 0 to 1 as "
+                                                 "floating point");
+    }
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(values_.size());
+    for (const float value : values_) {
+      bytes.push_back(
+          static_cast<std::uint8_t>(std::lround(static_cast<double>(value) / full * 255.0)));
+    }
+    return bytes;
+  }
+
+ private:
+  bool is_float_ = false;
+  bool is_wide_ = false;
+  double least_ = 0.0;
+  double greatest_ = 0.0;
+  std::vector<float> values_;  ///< of all points; a float holds every 16-bit number
+};
 
 std::size_t CountOf(const std::vector<std::optional<std::size_t>>& places, std::size_t first) {
   std::size_t count = 0;
@@ -123,10 +171,10 @@ std::size_t CountOf(const std::vector<std::optional<std::size_t>>& places, std::
   return count;
 }
 
-CloudBuilder MakeBuilder(const PlyHeader& header, const PlyElement& vertex, bool colored) {
+CloudBuilder MakeBuilder(const PlyHeader& header, const PlyElement& vertex) {
   const bool organised = header.rows > 1 && header.columns * header.rows == vertex.count;
-  return organised ? CloudBuilder(header.columns, header.rows, colored)
-                   : CloudBuilder(vertex.count, 1, colored);
+  return organised ? CloudBuilder(header.columns, header.rows, false)
+                   : CloudBuilder(vertex.count, 1, false);
 }
 
 PointCloud ReadVertices(const std::string& file, const PlyHeader& header, const PlyElement& vertex,
@@ -137,7 +185,8 @@ PointCloud ReadVertices(const std::string& file, const PlyHeader& header, const 
   }
   const bool colored = CountOf(places, 3) == 3;
   source->CheckHolds(vertex.count * vertex.properties.size());
-  CloudBuilder builder = MakeBuilder(header, vertex, colored);
+  CloudBuilder builder = MakeBuilder(header, vertex);
+  ColorScale colors(vertex);
   for (std::uint64_t i = 0; i < vertex.count; ++i) {
     Vertex numbers{};
     source->BeginItem();
@@ -151,13 +200,11 @@ PointCloud ReadVertices(const std::string& file, const PlyHeader& header, const 
     }
     source->EndItem();
     builder.Add({numbers[0], numbers[1], numbers[2]});
-    if (!colored) continue;
-    const auto byte = [&](std::size_t channel) {
-      return static_cast<std::uint8_t>(std::clamp(numbers[channel], 0.0, 255.0));
-    };
-    builder.AddColor(byte(3), byte(4), byte(5));
+    if (colored) colors.Add(numbers);
   }
-  return builder.Take();
+  PointCloud cloud = builder.Take();
+  if (colored) cloud.colors_rgb = colors.Bytes(file);
+  return cloud;
 }
 
 void SkipElement(const PlyElement& element, NumberSource* source) {

@@ -177,6 +177,18 @@ TEST(Pcd, RefusesBrokenHeaders) {
   EXPECT_THAT(Refusal("a.pcd", PcdWith("DATA ascii", "DATA hex")), HasSubstr("DATA is ascii"));
 }
 
+TEST(Pcd, RefusesAViewpointThatIsNotTheCamera) {
+  for (const char* camera : {"0 0 0 -1 0 0 0", "0 0 0 0 1 0 0"}) {
+    EXPECT_EQ(ReadText("a.pcd", PcdWith("0 0 0 1 0 0 0", camera)).points_m(2, 0), 3.0) << camera;
+  }
+  for (const char* other : {"0 0 0.5 1 0 0 0", "0 0 0 0.5 0.5 0 0", "0 0 0 0 0 1 0"}) {
+    EXPECT_THAT(Refusal("a.pcd", PcdWith("0 0 0 1 0 0 0", other)),
+                HasSubstr("a.pcd:9: the VIEWPOINT is not the camera"));
+  }
+  EXPECT_THAT(Refusal("a.pcd", PcdWith("0 0 0 1 0 0 0", "0 0 0 nan 0 0 0")), HasSubstr("seven"));
+  EXPECT_THAT(Refusal("a.pcd", PcdWith("0 0 0 1 0 0 0", "0 0 0 1")), HasSubstr("seven"));
+}
+
 TEST(Pcd, RefusesPointsThatAreNot) {
   EXPECT_THAT(Refusal("a.pcd", PcdWith("nan 5 6", "nan 5 b")), HasSubstr("a.pcd:13: 'b' is no"));
   EXPECT_THAT(Refusal("a.pcd", PcdWith("nan 5 6", "1e99 5")), HasSubstr("fewer values"));
@@ -213,6 +225,29 @@ TEST(Ply, ReadsTextAndSkipsWhatItDoesNotNeed) {
   EXPECT_EQ(cloud.points_m.col(0), Eigen::Vector3d(1.5, 2, 3));
   EXPECT_TRUE(cloud.points_m.col(1).array().isNaN().all());
   EXPECT_THAT(cloud.colors_rgb, ElementsAre(10, 20, 30, 255, 0, 1));
+}
+
+std::string ColoredPly(const std::string& type, const std::string& first,
+                       const std::string& second) {
+  std::string head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n";
+  head += "property float y\nproperty float z\n";
+  for (const char* channel : {"red", "green", "blue"}) {
+    head += "property " + type + " " + channel + "\n";
+  }
+  return head + "end_header\n1 2 3 " + first + "\n4 5 6 " + second + "\n";
+}
+
+TEST(Ply, ReadsColoursOfEveryType) {
+  const auto colors = [](const std::string& type, const std::string& a, const std::string& b) {
+    return ReadText("a.ply", ColoredPly(type, a, b)).colors_rgb;
+  };
+  EXPECT_THAT(colors("float", "0 0.5 1", "0.2 nan 0"), ElementsAre(0, 128, 255, 51, 0, 0));
+  EXPECT_THAT(colors("double", "0 127.5 1", "255 1 0"), ElementsAre(0, 128, 1, 255, 1, 0));
+  EXPECT_THAT(colors("ushort", "0 257 65535", "514 0 0"), ElementsAre(0, 1, 255, 2, 0, 0));
+  EXPECT_THAT(colors("int", "0 1 255", "2 0 0"), ElementsAre(0, 1, 255, 2, 0, 0));
+  EXPECT_THAT(Refusal("a.ply", ColoredPly("float", "0 0 300", "0 0 0")),
+              HasSubstr("a colour is 300: from 0 to 255"));
+  EXPECT_THAT(Refusal("a.ply", ColoredPly("int", "0 -2 0", "0 0 0")), HasSubstr("colour is -2"));
 }
 
 TEST(Ply, ReadsBytesInEitherOrder) {
