@@ -31,10 +31,10 @@ void C3dBytes::Refuse(std::size_t offset, const std::string& message) const {
   throw InputError(SourceLocation{file_}, "at byte " + std::to_string(offset) + ": " + message);
 }
 
-void C3dBytes::Require(std::size_t offset, std::size_t count, const std::string& what) const {
+void C3dBytes::Require(std::size_t offset, std::size_t count, std::string_view what) const {
   if (offset <= size() && count <= size() - offset) return;
-  Refuse(offset, "the file ends at byte " + std::to_string(size()) + ", but " + what + " needs " +
-                     std::to_string(count) + " bytes here");
+  Refuse(offset, "the file ends at byte " + std::to_string(size()) + ", but " + std::string(what) +
+                     " needs " + std::to_string(count) + " bytes here");
 }
 
 std::uint8_t C3dBytes::Byte(std::size_t offset) const {

@@ -36,7 +36,7 @@ class C3dBytes {
   std::string_view Text(std::size_t offset, std::size_t count) const;
 
   /// Throws InputError unless [offset, offset + count) lies in the file; `what` names it.
-  void Require(std::size_t offset, std::size_t count, const std::string& what) const;
+  void Require(std::size_t offset, std::size_t count, std::string_view what) const;
   /// Throws InputError: "file: at byte <offset>: message".
   [[noreturn]] void Refuse(std::size_t offset, const std::string& message) const;
 

@@ -4,9 +4,11 @@
 #include "libs/experiment/c3d/c3d_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "libs/core/text.hpp"
 #include "libs/experiment/capture/capture_text.hpp"
@@ -153,6 +155,34 @@ std::vector<std::string> ReadLabels(const C3dParameters& parameters, std::size_t
   return labels;
 }
 
+struct OutputType {
+  const char* type;  ///< as POINT:TYPE_GROUPS names it
+  const char* word;  ///< that ends the labels of such outputs: LKneeAngles
+};
+constexpr std::array kOutputTypes = std::to_array<OutputType>({{"ANGLES", "Angle"},
+                                                               {"FORCES", "Force"},
+                                                               {"MOMENTS", "Moment"},
+                                                               {"POWERS", "Power"},
+                                                               {"SCALARS", "Scalar"},
+                                                               {"REACTIONS", "Reaction"}});
+
+// The type whose word ends the label ("LKneeAngles", "knee_angle", not "Rectangle"); nullptr: none.
+const OutputType* TypeByLabel(std::string_view label) {
+  if (label.ends_with('s') || label.ends_with('S')) label.remove_suffix(1);
+  for (const OutputType& output : kOutputTypes) {
+    const std::string_view word = output.word;
+    if (label.ends_with(word)) return &output;
+    if (label.size() <= word.size()) continue;
+    const std::string_view end = label.substr(label.size() - word.size());
+    const bool same = std::equal(end.begin(), end.end(), word.begin(), [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) ==
+             std::tolower(static_cast<unsigned char>(b));
+    });
+    if (same && label[label.size() - word.size() - 1] == '_') return &output;
+  }
+  return nullptr;
+}
+
 // ANGLES has its unit in ANGLE_UNITS, and so on.
 bool HoldsLengths(const C3dParameters& parameters, const std::string& type) {
   const std::string stem = type.ends_with('S') ? type.substr(0, type.size() - 1) : type;
@@ -162,16 +192,22 @@ bool HoldsLengths(const C3dParameters& parameters, const std::string& type) {
   return !units.empty() && MetresPerUnit(units.front()).has_value();
 }
 
-// Model outputs are stored as points. Parameters named after their types list the labels of those
-// that are no positions.
-std::set<std::string> LabelsOfOtherQuantities(const C3dParameters& parameters) {
-  std::set<std::string> types = {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"};
+std::set<std::string> NamedTypes(const C3dParameters& parameters) {
+  std::set<std::string> types;
   for (std::string& type : LongList(parameters, "POINT:TYPE_GROUPS")) {
     std::transform(type.begin(), type.end(), type.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     const bool names_no_type = type.empty() || type.ends_with("UNITS") || type == "LABELS";
     if (!names_no_type) types.insert(type);
   }
+  return types;
+}
+
+// Model outputs are stored as points. Parameters named after their types list the labels of those
+// that are no positions.
+std::set<std::string> LabelsOfOtherQuantities(const C3dParameters& parameters) {
+  std::set<std::string> types = NamedTypes(parameters);
+  for (const OutputType& output : kOutputTypes) types.insert(output.type);
   std::set<std::string> labels;
   for (const std::string& type : types) {
     if (!parameters.Has("POINT:" + type) || HoldsLengths(parameters, type)) continue;
@@ -182,15 +218,39 @@ std::set<std::string> LabelsOfOtherQuantities(const C3dParameters& parameters) {
   return labels;
 }
 
+// Whether the file says that it holds outputs of this type, but not which: a label that reads like
+// one is then enough.
+bool HoldsUnlisted(const C3dParameters& parameters, const std::set<std::string>& named,
+                   const std::string& type) {
+  if (parameters.Has("POINT:" + type)) return false;
+  const std::string units = "POINT:" + type.substr(0, type.size() - 1) + "_UNITS";
+  return (named.contains(type) || parameters.Has(units)) && !HoldsLengths(parameters, type);
+}
+
 void MarkOtherQuantities(const C3dParameters& parameters, C3dLayout* layout) {
   const std::set<std::string> others = LabelsOfOtherQuantities(parameters);
-  std::vector<std::string> left_out;
+  const std::set<std::string> named = NamedTypes(parameters);
+  std::vector<std::string> left_out, doubtful;
   for (const std::string& label : layout->labels) {
-    layout->is_length.push_back(!others.contains(label));
-    if (!layout->is_length.back()) left_out.push_back(label);
+    const OutputType* output = TypeByLabel(label);
+    const bool is_other = others.contains(label) ||
+                          (output != nullptr && HoldsUnlisted(parameters, named, output->type));
+    layout->is_length.push_back(!is_other);
+    if (is_other) {
+      left_out.push_back(label);
+    } else if (output != nullptr) {
+      doubtful.push_back(label);
+    }
   }
-  if (left_out.empty()) return;
-  layout->notes.push_back("left out, as model outputs that are no positions: " + Listed(left_out));
+  if (!left_out.empty()) {
+    layout->notes.push_back("left out, as model outputs that are no positions: " +
+                            Listed(left_out));
+  }
+  if (!doubtful.empty()) {
+    layout->notes.push_back("taken as positions, though their labels read like model outputs: " +
+                            Excerpt(Listed(doubtful)) +
+                            "; if they are none, name the markers to take (--markers)");
+  }
 }
 
 std::size_t FindData(const C3dBytes& bytes, const C3dParameters& parameters) {

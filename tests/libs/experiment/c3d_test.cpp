@@ -154,6 +154,30 @@ TEST(C3d, LeavesModelOutputsOut) {
   EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("KneeAngles")));
 }
 
+TEST(C3d, LeavesModelOutputsOutThatNoParameterLists) {
+  C3dContent content = TwoPoints();
+  content.labels = {"tip", "LKneeAngles"};
+  content.type_groups = {"Angles", "AngleUnits"};
+  CapturedMarkers captured = ReadBytes(WriteC3d(content));
+  EXPECT_THAT(captured.tracks.names, ElementsAre("tip"));
+  EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("left out, as model outputs")));
+  content.type_groups.clear();
+  content.labels = {"tip", "hip_power"};
+  content.power_unit = "W";
+  captured = ReadBytes(WriteC3d(content));
+  EXPECT_THAT(captured.tracks.names, ElementsAre("tip"));
+  EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("left out, as model outputs")));
+}
+
+TEST(C3d, SaysThatAMarkerReadsLikeAModelOutput) {
+  C3dContent content = TwoPoints();
+  content.labels = {"Rectangle", "LKneeAngles"};
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content));
+  EXPECT_THAT(captured.tracks.names, ElementsAre("Rectangle", "LKneeAngles"));
+  EXPECT_THAT(captured.notes, ElementsAre(AllOf(HasSubstr("taken as positions"),
+                                                HasSubstr("outputs: LKneeAngles;"))));
+}
+
 TEST(C3d, EndsTheParametersWithTheirSection) {
   for (const auto processor : {C3dProcessor::kIntel, C3dProcessor::kMips}) {
     C3dContent content = TwoPoints();

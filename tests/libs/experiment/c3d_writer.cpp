@@ -73,7 +73,10 @@ class ParameterSection {
       Texts(1, "ANGLES", content_.angles);
       Texts(1, "ANGLE_UNITS", {"deg"});
       Texts(1, "TYPE_GROUPS", {"ANGLES"});
+    } else if (!content_.type_groups.empty()) {
+      Texts(1, "TYPE_GROUPS", content_.type_groups);
     }
+    if (!content_.power_unit.empty()) Texts(1, "POWER_UNITS", {content_.power_unit});
     for (std::size_t k = 0; k < content_.processing.size(); ++k) {
       const int group = 10 + static_cast<int>(k);
       Group(group, "PROCESSING");
