@@ -112,6 +112,12 @@ class Case(unittest.TestCase):
         self.assertIn(advice, text)
         self.assertLess(len(text), 600)
 
+    def test_a_viewpoint_that_is_not_the_camera_is_refused(self):
+        moved = cases.pcd().replace(b"VIEWPOINT 0 0 0 1", b"VIEWPOINT 0 0 0.5 1")
+        result = run("info", self.write("moved.pcd", moved))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("write VIEWPOINT 0 0 0 1 0 0 0", result.stderr)
+
     def test_what_is_of_no_kind_is_said_in_one_line(self):
         for begin in (b"what is this?\n" + b"y" * 100000, bytes(range(256)) * 400):
             result = run("info", self.write("thing.xyzzy", begin))

@@ -240,8 +240,10 @@ def vax(value):
     return struct.pack("<HH", bits >> 16, bits & 0xffff)
 
 
-def c3d(processor=84, real=True, gap="residual"):
-    """processor: 84 Intel, 85 DEC, 86 SGI. gap: 'residual' -1, 'nan' or 'zero'."""
+def c3d(processor=84, real=True, gap="residual", told_by=""):
+    """processor: 84 Intel, 85 DEC, 86 SGI. gap: 'residual' -1, 'nan' or 'zero'. told_by: the
+    parameter that says that there are angles, without listing them: 'groups' or 'units'."""
+    points = [*MARKERS, "LKneeAngles"] if told_by else [*MARKERS]
     end = ">" if processor == 86 else "<"
 
     def word(value):
@@ -259,19 +261,23 @@ def c3d(processor=84, real=True, gap="residual"):
 
     group = bytes([5, 255]) + b"POINT" + word(3) + b"\0"
     section = bytes([1, 80, 1, processor]) + group
-    section += parameter("USED", 2, [], word(len(MARKERS)))
+    section += parameter("USED", 2, [], word(len(points)))
     section += parameter("SCALE", 4, [], number(scale))
     section += parameter("RATE", 4, [], number(float(RATE_HZ)))
     section += parameter("DATA_START", 2, [], word(3))
     section += parameter("FRAMES", 2, [], word(FRAMES))
     section += parameter("UNITS", -1, [2], b"mm")
-    section += parameter("LABELS", -1, [3, len(MARKERS)], "".join(MARKERS).encode(), last=True)
-    header = (bytes([2, 80]) + word(len(MARKERS)) + word(0) + word(1) + word(FRAMES) + word(10) +
+    section += parameter("TYPE_GROUPS", -1, [6, 1], b"ANGLES") if told_by == "groups" else b""
+    section += parameter("ANGLE_UNITS", -1, [3], b"deg") if told_by == "units" else b""
+    width = max(map(len, points))
+    section += parameter("LABELS", -1, [width, len(points)],
+                         "".join(label.ljust(width) for label in points).encode(), last=True)
+    header = (bytes([2, 80]) + word(len(points)) + word(0) + word(1) + word(FRAMES) + word(10) +
               number(scale) + word(3) + word(0) + number(float(RATE_HZ)))
     data = b""
     for frame in range(FRAMES):
-        for marker in MARKERS:
-            place = position_mm(marker, frame)
+        for marker in points:
+            place = position_mm(marker, frame) if marker in MARKERS else (90.0, 1.0, 2.0)
             missing = {"residual": (0.0, 0.0, 0.0), "zero": (0.0, 0.0, 0.0),
                        "nan": (math.nan,) * 3}[gap]
             fourth = -1 if place is None and gap == "residual" else 0
@@ -367,11 +373,11 @@ def color(k):
     return (10 * k, 250 - 10 * k, 7)
 
 
-def ply(form="ascii", scale=1.0, negate=False, extra=False):
+def ply(form="ascii", scale=1.0, negate=False, extra=False, channel="uchar"):
     head = [f"format {form} 1.0", "comment made by hand", f"element vertex {COLUMNS * ROWS}"]
     head += [f"property float {axis}" for axis in "xyz"]
     head += ["property float nx"] if extra else []
-    head += [f"property uchar {c}" for c in ("red", "green", "blue")]
+    head += [f"property {channel} {c}" for c in ("red", "green", "blue")]
     head += ["element face 1", "property list uchar int vertex_indices"]
     sign = -1.0 if negate else 1.0
     end = ">" if form == "binary_big_endian" else "<"
@@ -379,7 +385,8 @@ def ply(form="ascii", scale=1.0, negate=False, extra=False):
     for k, (x, y, z) in enumerate(points_m()):
         place = [scale * x, sign * scale * y, sign * scale * z] + ([0.5] if extra else [])
         if form == "ascii":
-            data += (" ".join(f"{v:.6g}" for v in place) + " %d %d %d\n" % color(k)).encode()
+            shown = [c / 255.0 if channel == "float" else c for c in color(k)]
+            data += (" ".join(f"{v:.6g}" for v in place + shown) + "\n").encode()
         else:
             data += struct.pack(f"{end}{len(place)}f3B", *place, *color(k))
     data += b"3 0 1 2\n" if form == "ascii" else struct.pack(end + "B3i", 3, 0, 1, 2)
@@ -427,6 +434,7 @@ MESHES = {
 CAPTURES = {
     "intel.c3d": c3d(), "dec.c3d": c3d(85), "sgi.c3d": c3d(86), "dec_integers.c3d": c3d(85, False),
     "sgi_integers.c3d": c3d(86, False), "nan.c3d": c3d(gap="nan"), "zeros.c3d": c3d(gap="zero"),
+    "outputs_by_group.c3d": c3d(told_by="groups"), "outputs_by_unit.c3d": c3d(told_by="units"),
     "motive.csv": motive(), "nexus.csv": nexus(), "qualisys.tsv": qualisys(),
     "qualisys_commas.tsv": qualisys(comma=True),
     "qualisys_bodies.tsv": qualisys_bodies(), "cortex.trc": trc(), "table.csv": table(),
@@ -435,7 +443,7 @@ CAPTURES = {
 }
 
 CLOUDS = {
-    "ascii.ply": ply(), "little.ply": ply("binary_little_endian"),
+    "ascii.ply": ply(), "float_colors.ply": ply(channel="float"), "little.ply": ply("binary_little_endian"),
     "big.ply": ply("binary_big_endian"), "normals.ply": ply("binary_little_endian", extra=True),
     "viewer.ply": ply("binary_little_endian", negate=True), "millimetres.ply": ply(scale=1000.0),
     "ascii.pcd": pcd(), "unsigned.pcd": pcd(kind="U"), "binary.pcd": pcd("binary"),
