@@ -443,7 +443,8 @@ CAPTURES = {
 }
 
 CLOUDS = {
-    "ascii.ply": ply(), "float_colors.ply": ply(channel="float"), "little.ply": ply("binary_little_endian"),
+    "ascii.ply": ply(), "float_colors.ply": ply(channel="float"),
+    "little.ply": ply("binary_little_endian"),
     "big.ply": ply("binary_big_endian"), "normals.ply": ply("binary_little_endian", extra=True),
     "viewer.ply": ply("binary_little_endian", negate=True), "millimetres.ply": ply(scale=1000.0),
     "ascii.pcd": pcd(), "unsigned.pcd": pcd(kind="U"), "binary.pcd": pcd("binary"),

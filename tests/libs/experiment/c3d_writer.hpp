@@ -34,8 +34,8 @@ struct C3dContent {
   bool long_frames = false;         ///< POINT:LONG_FRAMES
   bool data_start_is_zero = false;  ///< POINT:DATA_START
   bool last_link_leads_nowhere = false;
-  bool point_group_is_named = true;  ///< its record is there
-  std::vector<std::string> angles;   ///< POINT:ANGLES, in deg, and POINT:TYPE_GROUPS
+  bool point_group_is_named = true;      ///< its record is there
+  std::vector<std::string> angles;       ///< POINT:ANGLES, in deg, and POINT:TYPE_GROUPS
   std::vector<std::string> type_groups;  ///< POINT:TYPE_GROUPS where `angles` is empty
   std::string power_unit;                ///< POINT:POWER_UNITS
   /// A parameter PROCESSING:MASS for each, in a group of its own of that name.
