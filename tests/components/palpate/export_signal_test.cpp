@@ -58,7 +58,7 @@ TEST_F(ExportOfAnExperiment, LeavesNoFolderWhereItFails) {
 }
 
 TEST_F(ExportOfAnExperiment, LeavesNoFolderWhereItIsInterrupted) {
-  WriteRecording(100, true);
+  WriteRecording(200, true);
   app::ChildProcess process = Export();
   while (!std::filesystem::exists(out_ / "recordings") && !process.ExitCode()) {
     std::this_thread::yield();
