@@ -99,6 +99,8 @@ class DiagnosisRun {
   Status Prepare();
   /// Poses that are not given, exchanged cables, and the surface that depth frames show.
   Status RegisterAndSwap();
+  /// Leaves samples out where the null model would take too much of the time limit.
+  void KeepToTheLimit();
   /// The nominal robot's simulation, and the catalogue's faults that can show in these data.
   Status BuildHypotheses();
   /// Forward selection with backward elimination.
@@ -131,6 +133,7 @@ class DiagnosisRun {
   std::optional<HypothesisSet> hypotheses_;
   std::optional<Fitter> fitter_;
   Fit as_built_;
+  std::string fewer_samples_;  ///< how many are used of how many; empty: all
   double linearised_s_ = 0.0;  ///< time that simulating and linearising the nominal robot took
   Selection selection_;
 };
@@ -162,10 +165,25 @@ Status DiagnosisRun::RegisterAndSwap() {
   SurfaceSource* source = HasDepthFrames(observed_) ? settings_.surface_source : nullptr;
   report_(0, steps(), "testing exchanged cables");
   nearest_ = FindExchangedCables(body_, observed_, threads, source);
+  KeepToTheLimit();
   if (source == nullptr) return status;
   report_(0, steps(), "matching depth frames with the body");
   matcher_.emplace(body_);
   return ObserveSurface(nearest_->hypothesis, threads, source, &*matcher_, &observed_);
+}
+
+void DiagnosisRun::KeepToTheLimit() {
+  const double passes = 1.0 + FitterTuning().most_continuations;  // simulated, then fitted
+  const std::size_t all = observed_.samples.size();
+  const std::size_t most =
+      SamplesWithin(settings_.longest_s, passes * nearest_->sample_s / settings_.threads, all);
+  if (most == all) return;
+  std::vector<Sample> kept;
+  for (const std::size_t s : SpreadOver(all, most)) kept.push_back(std::move(observed_.samples[s]));
+  observed_.samples = std::move(kept);
+  fewer_samples_ = std::to_string(most) + " of " + std::to_string(all) +
+                   " samples are used, as the time limit leaves time for no more.";
+  report_(0, steps(), fewer_samples_);
 }
 
 Status DiagnosisRun::BuildHypotheses() {
@@ -233,6 +251,7 @@ void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
   DescribeVerdict(selection_, result);
   result->interrupted = limit_.IsStopped();
   if (result->interrupted) result->reason = "Interrupted, a partial report. " + result->reason;
+  if (!fewer_samples_.empty()) result->reason += " Only " + fewer_samples_;
   DescribeCauses(observed_, *fitter_, robot_, selection_, result);
   DescribeRivals(*hypotheses_, selection_, result);
   if (!result->interrupted) DescribeLimits(*hypotheses_, selection_, result);

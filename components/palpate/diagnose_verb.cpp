@@ -324,8 +324,8 @@ app::Verb DiagnoseVerb() {
                              "Maximum number of time samples used in the fit");
             arguments.Option(
                 "--minutes", &options->most_minutes, 0, 100000,
-                "Time limit of the search, minutes; 0: unlimited. The null model is fitted to "
-                "its end all the same; fewer --samples shorten it");
+                "Time limit of the search, minutes; 0: unlimited. Where the null model would "
+                "take more than a third of it, fewer samples are used");
             arguments.Option("--threads", &options->threads, 1, 64,
                              "Number of recordings processed in parallel");
             return [options] { return Diagnose(*options); };

@@ -284,6 +284,13 @@ bool HasDepthCamera(const ObservedExperiment& observed) {
                      });
 }
 
+std::vector<std::size_t> SpreadOver(std::size_t all, std::size_t most) {
+  const std::size_t count = std::min(all, most);
+  std::vector<std::size_t> some;
+  for (std::size_t k = 0; k < count; ++k) some.push_back(k * all / count);
+  return some;
+}
+
 bool IsMeasured(const Sample& sample, Eigen::Index coordinate) {
   const Eigen::Index of_markers = 3 * sample.count.size();
   if (coordinate < of_markers) return sample.count[coordinate / 3] > 0;

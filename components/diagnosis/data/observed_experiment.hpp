@@ -91,6 +91,9 @@ struct ObservedExperiment {
   Eigen::Index CoordinateCount() const { return 3 * std::ssize(markers) + feature_rest_m.cols(); }
 };
 
+/// Numbers of `most` samples, or of all where these are fewer, spread evenly over `all`.
+std::vector<std::size_t> SpreadOver(std::size_t all, std::size_t most);
+
 /// One coordinate of those that a sample has.
 bool IsMeasured(const Sample& sample, Eigen::Index coordinate);
 /// m; NaN where it was not measured.

@@ -65,15 +65,6 @@ namespace {
 /// How bodies are bent shows in so many samples.
 constexpr std::size_t kMostSamples = 40;
 
-/// Numbers of so many samples, spread evenly.
-std::vector<std::size_t> SomeOf(const ObservedExperiment& observed) {
-  const std::size_t all = observed.samples.size();
-  const std::size_t count = std::min(all, kMostSamples);
-  std::vector<std::size_t> some;
-  for (std::size_t k = 0; k < count; ++k) some.push_back(k * all / count);
-  return some;
-}
-
 }  // namespace
 
 robot::RobotDescription OnFinerMesh(robot::RobotDescription robot) {
@@ -91,7 +82,7 @@ std::shared_ptr<const MeshError> CompareWithFinerMesh(const robot::RobotDescript
   ObservedExperiment few = observed;
   few.samples.clear();
   Simulation coarse;
-  for (const std::size_t s : SomeOf(observed)) {
+  for (const std::size_t s : SpreadOver(observed.samples.size(), kMostSamples)) {
     few.samples.push_back(observed.samples[s]);
     SimulatedSample& known = coarse.samples.emplace_back();
     known.status = simulated.samples[s].status;

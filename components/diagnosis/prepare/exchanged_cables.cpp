@@ -4,7 +4,9 @@
 #include "components/diagnosis/prepare/exchanged_cables.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <set>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "components/diagnosis/faults/makers.hpp"
 #include "components/diagnosis/forward/simulator.hpp"
 #include "components/diagnosis/surface/surface_matcher.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/geometry/closest_point.hpp"
 
 namespace palpate::diagnosis {
@@ -65,32 +68,43 @@ ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
   return observed;
 }
 
-/// What a robot's simulation is off by from where it was seen: mean squares, m2; NaN where that is
-/// not known.
+/// What a robot's simulation is off by from where it was seen: mean squares, m2.
 class Distance {
  public:
-  /// Both must outlive it. Reads the depth frames about the shapes of `as_in_file`.
+  /// `body` and `source` must outlive it. Reads the depth frames about the shapes of `as_in_file`.
   Distance(const robot::RobotBody& body, const ObservedExperiment& telling, int threads,
            SurfaceSource* source, const ModelHypothesis& as_in_file)
-      : telling_(telling),
-        simulator_(telling, threads),
-        surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
+      : telling_(telling), surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
+    for (const Sample& sample : telling.samples) {
+      ObservedExperiment& one = alone_.emplace_back(telling);
+      one.samples = {sample};
+      simulators_.emplace_back(one, threads);
+    }
     if (source == nullptr) return;
+    const Simulator simulator(telling, threads);
     SurfaceMatcher matcher(body);
-    matcher.Read(telling, simulator_.Shapes(as_in_file, simulator_.Run(as_in_file)), source);
+    matcher.Read(telling, simulator.Shapes(as_in_file, simulator.Run(as_in_file)), source);
     clouds_ = matcher.clouds();
   }
 
-  double MeanSquareOf_m2(const ModelHypothesis& hypothesis) {
-    const Simulation simulation = simulator_.Run(hypothesis);
-    if (!simulation.status.ok()) return std::numeric_limits<double>::quiet_NaN();
+  /// NaN where it is not known; infinite once the samples so far put it above `most_m2`. A robot
+  /// whose cables are exchanged is far off in the first sample that pulls one: the others, slow to
+  /// find, are not needed.
+  double MeanSquareOf_m2(const ModelHypothesis& hypothesis,
+                         double most_m2 = std::numeric_limits<double>::infinity()) {
     sum_m2_ = 0.0;
     count_ = 0.0;
-    if (clouds_.empty()) {
-      AddMarkers(simulation);
-    } else {
-      AddClouds(simulator_.Shapes(hypothesis, simulation));
+    for (std::size_t s = 0; s < alone_.size(); ++s) {
+      const Simulation simulation = simulators_[s].Run(hypothesis);
+      if (!simulation.status.ok()) return std::numeric_limits<double>::quiet_NaN();
+      if (clouds_.empty()) {
+        AddMarkers(simulation.samples.front(), telling_.samples[s]);
+      } else {
+        AddCloud(simulators_[s].Shapes(hypothesis, simulation).front(), s);
+      }
+      if (sum_m2_ > most_m2 * count_of_all_) return std::numeric_limits<double>::infinity();
     }
+    count_of_all_ = count_;  // the same of all robots
     return sum_m2_ / count_;
   }
 
@@ -100,37 +114,34 @@ class Distance {
     ++count_;
   }
 
-  void AddMarkers(const Simulation& simulation) {
-    for (std::size_t s = 0; s < telling_.samples.size(); ++s) {
-      const Sample& sample = telling_.samples[s];
-      for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
-        if (sample.count[m] == 0) continue;
-        Add((simulation.samples[s].markers_m().col(m) - sample.position_m.col(m)).norm());
-      }
+  void AddMarkers(const SimulatedSample& simulated, const Sample& sample) {
+    for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
+      if (sample.count[m] == 0) continue;
+      Add((simulated.markers_m().col(m) - sample.position_m.col(m)).norm());
     }
   }
 
-  void AddClouds(const std::vector<ShapesInTime>& shapes) {
-    for (std::size_t s = 0; s < clouds_.size(); ++s) {
-      const auto r = static_cast<std::size_t>(telling_.samples[s].recording);
-      const Eigen::Isometry3d T_robot_camera = telling_.recordings[r].T_camera_robot->inverse();
-      for (const SeenCloud& seen : clouds_[s]) {
-        surface_.Refit(shapes[s].At(seen.frame.t_s, shapes[s].nodes_m).cast<double>());
-        const Eigen::Index step = std::max<Eigen::Index>(1, seen.cloud.points_m.cols() / kPoints);
-        for (Eigen::Index k = 0; k < seen.cloud.points_m.cols(); k += step) {
-          Add(surface_.Closest(T_robot_camera * seen.cloud.points_m.col(k).cast<double>())
-                  .distance_m);
-        }
+  void AddCloud(const ShapesInTime& shapes, std::size_t s) {
+    const auto r = static_cast<std::size_t>(telling_.samples[s].recording);
+    const Eigen::Isometry3d T_robot_camera = telling_.recordings[r].T_camera_robot->inverse();
+    for (const SeenCloud& seen : clouds_[s]) {
+      surface_.Refit(shapes.At(seen.frame.t_s, shapes.nodes_m).cast<double>());
+      const Eigen::Index step = std::max<Eigen::Index>(1, seen.cloud.points_m.cols() / kPoints);
+      for (Eigen::Index k = 0; k < seen.cloud.points_m.cols(); k += step) {
+        Add(surface_.Closest(T_robot_camera * seen.cloud.points_m.col(k).cast<double>())
+                .distance_m);
       }
     }
   }
 
   const ObservedExperiment& telling_;
-  Simulator simulator_;
+  std::deque<ObservedExperiment> alone_;  ///< by sample; referred to by its simulator
+  std::deque<Simulator> simulators_;
   geometry::SurfaceIndex surface_;
   SurfaceClouds clouds_;
   double sum_m2_ = 0.0;
   double count_ = 0.0;
+  double count_of_all_ = std::numeric_limits<double>::infinity();  ///< not known before the first
 };
 
 }  // namespace
@@ -141,16 +152,20 @@ NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExp
   const ModelHypothesis as_in_file = nearest.hypothesis;
   const ObservedExperiment telling = OfMostPulled(observed, source != nullptr);
   Distance distance(body, telling, threads, source, as_in_file);
+  const auto begin = std::chrono::steady_clock::now();
   double least_m2 = kClearlyLess * distance.MeanSquareOf_m2(as_in_file);
+  nearest.sample_s =
+      SecondsSince(begin) / std::max(1.0, static_cast<double>(telling.samples.size()));
   std::vector<FaultModelPtr> exchanges;
   MakeSwappedCables({.body = body, .observed = telling}, &exchanges);
   for (const FaultModelPtr& exchange : exchanges) {
     ModelHypothesis hypothesis = as_in_file;
     exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
-    const double mean_m2 = distance.MeanSquareOf_m2(hypothesis);
+    const double mean_m2 = distance.MeanSquareOf_m2(hypothesis, least_m2);
     if (!(mean_m2 < least_m2)) continue;
     least_m2 = mean_m2;
-    nearest = {std::move(hypothesis), exchange->name()};
+    nearest.hypothesis = std::move(hypothesis);
+    nearest.exchanged = exchange->name();
   }
   return nearest;
 }

@@ -14,6 +14,7 @@ namespace palpate::diagnosis {
 struct NearestRobot {
   ModelHypothesis hypothesis;
   std::optional<CauseName> exchanged = {};  ///< the cables; none: it is the file's
+  double sample_s = 0.0;  ///< time that a sample of the file's robot took on one thread, s
 };
 
 /// Which robot stands nearest to where it was seen: the robot file's, or one with two of its cables

@@ -47,6 +47,21 @@ TEST(TimeLimit, IsOverAfterItsTimeAndNeverWithoutOne) {
   EXPECT_FALSE(TimeLimit().IsOver());
 }
 
+TEST(SamplesWithin, AreAllWithoutALimitAndNeverFewerThanTen) {
+  EXPECT_EQ(SamplesWithin(0.0, 5.0, 120), 120u);
+  EXPECT_EQ(SamplesWithin(600.0, 5.0, 120), 120u);
+  EXPECT_EQ(SamplesWithin(60.0, 1.0, 120), 60u);
+  EXPECT_EQ(SamplesWithin(60.0, 50.0, 120), 10u);
+  EXPECT_EQ(SamplesWithin(60.0, 50.0, 7), 7u);
+  EXPECT_EQ(SamplesWithin(60.0, 0.0, 120), 120u);
+}
+
+TEST(SpreadOver, TakesAsManyAsItMayInOrder) {
+  EXPECT_EQ(SpreadOver(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
+  EXPECT_EQ(SpreadOver(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_TRUE(SpreadOver(0, 5).empty());
+}
+
 TEST(TimeLimit, IsOverOnceAStopIsRequested) {
   bool stop = false;
   const TimeLimit limit(0.0, [&] { return stop; });
