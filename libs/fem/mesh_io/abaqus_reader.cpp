@@ -6,8 +6,10 @@
 #include <cctype>
 #include <charconv>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "libs/core/error.hpp"
@@ -92,9 +94,12 @@ class AbaqusReader {
     return parts;
   }
 
-  Keyword ParseKeyword() const {
+  /// A comma at the end of the line continues it.
+  Keyword ParseKeyword() {
     Keyword keyword;
-    for (const std::string_view part : Split(line_)) {
+    std::string whole(line_);
+    while (whole.ends_with(',') && NextLine()) whole += line_;
+    for (const std::string_view part : Split(whole)) {
       const size_t equals = part.find('=');
       const std::string name = InUpperCase(WithoutBlanks(part.substr(0, equals)));
       if (keyword.name.empty()) {
@@ -122,13 +127,17 @@ class AbaqusReader {
     } else if (keyword.name == "ELEMENT") {
       BeginElements(keyword);
     } else if (keyword.name == "ELSET") {
-      set_ = keyword.Get("ELSET");
-      generate_ = keyword.parameters.contains("GENERATE");
-      take_ = &AbaqusReader::TakeSet;
+      BeginSet(keyword);
     } else if (keyword.name == "PART" && ++parts_ > 1) {
       Fail("a second *PART: save the body as one part");
     } else if (keyword.name == "INSTANCE") {
+      if (++instances_ > 1) Fail("a second *INSTANCE: save the body as one part");
+      in_assembly_ = false;
       take_ = &AbaqusReader::RefuseMove;
+    } else if (keyword.name == "ASSEMBLY" || keyword.name == "END INSTANCE") {
+      in_assembly_ = true;
+    } else if (keyword.name == "END ASSEMBLY") {
+      in_assembly_ = false;
     } else if (keyword.name == "NGEN" || keyword.name == "NFILL" || keyword.name == "NCOPY" ||
                keyword.name == "ELGEN" || keyword.name == "ELCOPY" || keyword.name == "SYSTEM") {
       Fail("*" + keyword.name + " is not read: write the nodes and elements themselves");
@@ -142,7 +151,10 @@ class AbaqusReader {
     Fail("*" + keyword.name + " names another file, which is not read: put the mesh in one file");
   }
 
+  /// Of an assembly, outside its instance, nodes and elements have numbers of their own: they are
+  /// reference points and connectors, and no part of the body.
   void BeginNodes(const Keyword& keyword) {
+    if (in_assembly_) return;
     const std::string system = InUpperCase(keyword.Get("SYSTEM"));
     if (!system.empty() && system != "R") {
       Fail("nodes in cylindrical or spherical coordinates (SYSTEM=" + Excerpt(system) +
@@ -159,8 +171,9 @@ class AbaqusReader {
   }
 
   void BeginElements(const Keyword& keyword) {
+    if (in_assembly_) return;
     const std::string type = InUpperCase(keyword.Get("TYPE"));
-    set_ = keyword.Get("ELSET");
+    set_ = NameOfSet(keyword.Get("ELSET"));
     if (type.starts_with("C3D10")) {
       type_ = ElementType::kTet10;
     } else if (type.starts_with("C3D4")) {
@@ -237,40 +250,93 @@ class AbaqusReader {
          std::to_string(static_cast<size_t>(type_)));
   }
 
-  /// Numbers of elements, names of other sets, or with GENERATE first, last and step.
+  void BeginSet(const Keyword& keyword) {
+    if (in_assembly_ && !keyword.parameters.contains("INSTANCE")) return;
+    listed_set_ = &NameOfSet(keyword.Get("ELSET"));
+    generate_ = keyword.parameters.contains("GENERATE");
+    take_ = &AbaqusReader::TakeSet;
+  }
+
+  /// Names of sets are equal in any case. Returns `name` as the first set of that name has it.
+  const std::string& NameOfSet(const std::string& name) {
+    return names_of_sets_.try_emplace(InUpperCase(name), name).first->second;
+  }
+
+  /// Numbers of elements, names of other sets, or with GENERATE first, last and step. What they
+  /// name may follow.
   void TakeSet() {
     const auto parts = Split(line_);
     if (generate_) {
       if (parts.size() < 2 || parts.size() > 3) Fail("expected first, last and step");
       const int64_t first = Integer(parts[0], "an element"), last = Integer(parts[1], "an element");
       const int64_t step = parts.size() == 3 ? Integer(parts[2], "a step") : 1;
-      for (const auto& [number, tet] : tet_of_number_) {
-        const bool within = number >= first && number <= last && (number - first) % step == 0;
-        if (within && !set_.empty()) tets_of_set_[set_].push_back(tet);
-      }
+      ranges_.push_back({listed_set_, first, last, step});
       return;
     }
     for (const std::string_view part : parts) {
-      const bool is_number = std::isdigit(static_cast<unsigned char>(part.front())) != 0;
-      if (is_number) {
-        AddToSet(Integer(part, "an element"));
-      } else if (const auto other = tets_of_set_.find(std::string(part));
-                 other != tets_of_set_.end()) {
-        const std::vector<int> tets = other->second;
-        auto& own = tets_of_set_[set_];
-        own.insert(own.end(), tets.begin(), tets.end());
+      if (part.empty()) continue;
+      if (std::isdigit(static_cast<unsigned char>(part.front())) == 0) {
+        others_.emplace_back(*listed_set_, InUpperCase(part));
+      } else if (const int64_t number = Integer(part, "an element");
+                 !AddToSet(*listed_set_, number)) {
+        ranges_.push_back({listed_set_, number, number, 1});
       }
     }
   }
 
-  /// Elements that are no tetrahedra are in no group.
-  void AddToSet(int64_t number) {
+  /// False: there is no such tetrahedron, or not yet.
+  bool AddToSet(const std::string& set, int64_t number) {
     const auto tet = tet_of_number_.find(number);
-    if (tet != tet_of_number_.end() && !set_.empty()) tets_of_set_[set_].push_back(tet->second);
+    if (tet == tet_of_number_.end()) return false;
+    tets_of_set_[set].push_back(tet->second);
+    return true;
+  }
+
+  /// Elements first, first + step, ... to last of a set.
+  struct Range {
+    const std::string* set = nullptr;
+    int64_t first = 0;
+    int64_t last = 0;
+    int64_t step = 1;
+  };
+
+  /// Elements that are no tetrahedra are in no group.
+  void AddRange(const Range& range) {
+    if (range.last < range.first) return;
+    const int64_t steps = (range.last - range.first) / range.step;
+    if (steps < static_cast<int64_t>(tet_of_number_.size())) {
+      for (int64_t k = 0; k <= steps; ++k) AddToSet(*range.set, range.first + k * range.step);
+      return;
+    }
+    for (const auto& [number, tet] : tet_of_number_) {
+      const bool within =
+          number >= range.first && number <= range.last && (number - range.first) % range.step == 0;
+      if (within) tets_of_set_[*range.set].push_back(tet);
+    }
+  }
+
+  /// Adds the elements of one set to another; whether that has become larger.
+  bool AddSet(const std::string& set, const std::string& other_in_upper_case) {
+    const auto other = names_of_sets_.find(other_in_upper_case);
+    if (other == names_of_sets_.end() || set == other->second) return false;
+    const auto from = tets_of_set_.find(other->second);
+    if (from == tets_of_set_.end()) return false;
+    std::vector<int>& own = tets_of_set_[set];
+    const std::set<int> before(own.begin(), own.end());
+    std::set<int> all = before;
+    all.insert(from->second.begin(), from->second.end());
+    own.assign(all.begin(), all.end());
+    return all.size() > before.size();
   }
 
   void FinishSets() {
+    for (const Range& range : ranges_) AddRange(range);
+    for (bool grows = true; grows;) {  // sets of sets, as deep as they go
+      grows = false;
+      for (const auto& [set, other] : others_) grows = AddSet(set, other) || grows;
+    }
     for (const auto& [name, tets] : tets_of_set_) {
+      if (name.empty()) continue;
       const int group = builder_->GroupNamed(name);
       for (const int tet : tets) builder_->AddToGroup(group, tet);
     }
@@ -281,16 +347,22 @@ class AbaqusReader {
   int line_number_ = 0;
   int keywords_ = 0;
   int parts_ = 0;
+  int instances_ = 0;
+  bool in_assembly_ = false;  ///< and outside its instance
   MeshBuilder* builder_;
   void (AbaqusReader::*take_)() = &AbaqusReader::PassOver;
 
   ElementType type_ = ElementType::kTet4;
-  std::string set_;
+  std::string set_;                          ///< that *ELEMENT names
+  const std::string* listed_set_ = nullptr;  ///< of *ELSET
   bool generate_ = false;
   std::vector<int64_t> pending_;  ///< number and nodes of an element that is not complete
   int pending_line_ = 0;
   std::unordered_map<int64_t, int64_t> node_of_number_;
   std::unordered_map<int64_t, int> tet_of_number_;
+  std::map<std::string, std::string> names_of_sets_;  ///< of their names in upper case
+  std::vector<Range> ranges_;
+  std::vector<std::pair<std::string, std::string>> others_;  ///< a set, and one that it holds
   std::map<std::string, std::vector<int>> tets_of_set_;
 };
 

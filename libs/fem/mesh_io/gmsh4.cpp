@@ -118,8 +118,7 @@ void GmshReader::ReadNodeBlock4(int64_t at_most) {
   for (int64_t k = 0; tags_first && k < count; ++k) {
     nodes_.push_back({scanner_.Integer(tag_type_, 1, kMaxTag, "a node tag"), {}});
   }
-  // In 4.0 there are three parameters, whatever the dimension.
-  const int64_t parameters = !parametric ? 0 : tags_first ? dimension : 3;
+  const int64_t parameters = parametric ? dimension : 0;
   for (size_t k = first; k < first + static_cast<size_t>(count); ++k) {
     if (!tags_first) nodes_.push_back({scanner_.Integer(tag_type_, 1, kMaxTag, "a node tag"), {}});
     nodes_[k] = ReadPosition(nodes_[k].tag);

@@ -292,6 +292,41 @@ TEST(MeshFormats, WhatAbaqusWritesElsewhereIsRefused) {
   EXPECT_THAT(with("*NGEN\n1, 5"), HasSubstr("*NGEN is not read"));
 }
 
+TEST(MeshFormats, AbaqusSetsAreEqualInAnyCaseAndMayStandFirst) {
+  const std::string early =
+      "*ELSET, ELSET=Early,\n GENERATE\n7, 9\n*ELSET, ELSET=all\nTOP, EARLY\n";
+  const TetMesh mesh = ReadBytes(
+      {"m.inp", Replaced(Replaced(kAbaqus, "*ELEMENT, TYPE=CPS3", early + "*ELEMENT, TYPE=CPS3"),
+                         "ELSET=both", "ELSET=VOLUME1")});
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"Early", {0, 1}}, CellGroup{"Volume1", {0, 1}},
+                                       CellGroup{"all", {0, 1}}, CellGroup{"top", {0}}));
+}
+
+TEST(MeshFormats, NodesOfAnAbaqusAssemblyAreNoneOfTheBody) {
+  const std::string part = "*PART, NAME=p\n" + std::string(kAbaqus) + "*END PART\n";
+  const std::string assembly =
+      "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=i, PART=p\n*END INSTANCE\n*NODE\n10, 0., 0., 5.\n"
+      "*ELEMENT, TYPE=MASS, ELSET=rp\n7, 10\n*ELSET, ELSET=i\n8,\n"
+      "*ELSET, ELSET=end, INSTANCE=i\n8,\n*END ASSEMBLY\n";
+  const TetMesh mesh = ReadBytes({"m.inp", part + assembly});
+  EXPECT_EQ(mesh.NodeCount(), 5);
+  EXPECT_THAT(mesh.groups, ElementsAre(CellGroup{"Volume1", {0, 1}}, CellGroup{"both", {0, 1}},
+                                       CellGroup{"end", {1}}, CellGroup{"top", {0}}));
+  EXPECT_THAT(RefusalOf({"m.inp", part + Replaced(assembly, "*NODE",
+                                                  "*INSTANCE, NAME=j, PART=p\n*END INSTANCE\n"
+                                                  "*NODE")}),
+              HasSubstr("a second *INSTANCE"));
+}
+
+TEST(MeshFormats, NodesOfGmsh40HaveAParameterForEachDimension) {
+  const TetMesh mesh = ReadBytes(
+      {"m.msh",
+       "$MeshFormat\n4 0 8\n$EndMeshFormat\n$Nodes\n3 4\n1 0 0 1\n1 0 0 0\n1 1 1 2\n2 1 0 0 0.5\n"
+       "3 0 1 0 0.7\n1 2 1 1\n4 0 0 1 0.1 0.2\n$EndNodes\n$Elements\n1 1\n1 3 4 1\n1 1 2 3 4\n"
+       "$EndElements\n"});
+  EXPECT_NEAR(ReportMesh(mesh).volume_m3, 1.0 / 6.0, 1e-15);
+}
+
 TEST(MeshFormats, NodesOfGmsh2MayHaveParameters) {
   const TetMesh mesh =
       ReadBytes({"m.msh",

@@ -206,8 +206,8 @@ TEST_F(GmshProgram, WritesTheSameMeshInEveryFormat) {
     EXPECT_THAT(reference.groups, ElementsAre(testing::Field(&CellGroup::name, "lower part"),
                                               testing::Field(&CellGroup::name, "upper")));
     EXPECT_NEAR(ReportMesh(reference).volume_m3, 9e-5, 1e-12);
-    for (const std::string format :
-         {"msh22", "msh22 -bin", "msh41 -bin", "msh41 -save_parametric", "vtk", "vtk -bin"}) {
+    for (const std::string format : {"msh22", "msh22 -bin", "msh40", "msh40 -save_parametric",
+                                     "msh41 -bin", "msh41 -save_parametric", "vtk", "vtk -bin"}) {
       SCOPED_TRACE("order " + order + " " + format);
       const TetMesh mesh = MeshedBy("-order " + order + " -format " + format,
                                     format.starts_with("vtk") ? "mesh.vtk" : "mesh.msh");
