@@ -146,9 +146,13 @@ ConfigNode ParseYaml(const std::string& text, const std::string& name) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) return builder.TakeRoot();
+    // The tools of ROS print '---' behind each message: an empty document at the end is none.
     TreeBuilder second(name);
     if (parser.HandleNextDocument(second)) {
-      throw InputError(second.TakeRoot().where, "only one YAML document is read from a file");
+      const ConfigNode root = second.TakeRoot();
+      if (root.kind != ConfigNode::Kind::kNull || parser.HandleNextDocument(second)) {
+        throw InputError(root.where, "only one YAML document is read from a file");
+      }
     }
   } catch (const YAML::Exception& error) {
     const int tab_line = FindTabIndent(text);

@@ -77,7 +77,14 @@ TEST(Yaml, RefusesWhatSettingsHaveNoNeedOf) {
   EXPECT_EQ(Refusal("a: &x 1\nb: *x\n"), "a.yaml:1:4: anchors (&name) are not read");
   EXPECT_THAT(Refusal("a: !!str 1\n"), HasSubstr("tags (tag:yaml.org,2002:str) are not read"));
   EXPECT_EQ(Refusal("a: 1\n---\nb: 2\n"), "a.yaml:3:1: only one YAML document is read from a file");
+  EXPECT_THAT(Refusal("a: 1\n---\n---\nb: 2\n"), HasSubstr("only one YAML document"));
   EXPECT_THAT(Refusal("? [1, 2]\n: 3\n"), HasSubstr("a key must be a plain word"));
+}
+
+TEST(Yaml, AnEmptyDocumentAtTheEndIsNone) {
+  for (const std::string end : {"---\n", "---\n\n# end\n", "...\n"}) {
+    EXPECT_EQ(ParseYaml("a: 1\n" + end, "a.yaml").Find("a")->text, "1") << end;
+  }
 }
 
 TEST(Yaml, RefusesNestingTooDeepToBeSettings) {
