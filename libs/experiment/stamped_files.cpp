@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// No camera takes 10 000 frames a second: names nearer to each other are no nanoseconds.
-constexpr std::int64_t kShortestStep_ns = 100'000;
+/// No depth camera takes 1000 frames a second: names nearer to each other are no nanoseconds.
+/// Microseconds are that near from 1 frame a second on.
+constexpr std::int64_t kShortestStep_ns = 1'000'000;
 constexpr std::int64_t kLargestExponent = 18;
 constexpr std::size_t kMostDigits_ns = 19;  // what an int64 holds; the parser refuses the rest
 

@@ -53,10 +53,11 @@ class SampleReader {
   int ReadFourthWord(std::size_t offset) const {
     if (!layout_.real_points) return bytes_.Int16(offset);
     const double word = bytes_.Real(offset);
-    if (!(word >= -32768.0 && word <= 32767.0)) {
+    if (word < 0.0) return -1;
+    if (!(word <= 32767.0)) {
       bytes_.Refuse(offset, "residual and cameras of a point are no 16-bit number");
     }
-    return word < 0.0 ? -1 : static_cast<int>(word);
+    return static_cast<int>(word);
   }
 
   double ReadCoordinate(std::size_t offset) const {

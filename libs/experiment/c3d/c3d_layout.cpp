@@ -111,10 +111,17 @@ double ReadScale(const C3dBytes& bytes, const C3dParameters& parameters) {
   return scale;
 }
 
-double ReadRate(const C3dBytes& bytes, const C3dParameters& parameters) {
+double ReadRate(const C3dBytes& bytes, const C3dParameters& parameters,
+                std::vector<std::string>* notes) {
+  constexpr double kRounding = 2e-3;  // 59.94 may stand there as 60
+  const double in_header = bytes.Real(kRate);
   const double in_parameters = parameters.Number("POINT:RATE").value_or(0.0);
-  const double rate_Hz = in_parameters > 0.0 ? in_parameters : bytes.Real(kRate);
+  const double rate_Hz = in_parameters > 0.0 ? in_parameters : in_header;
   if (!std::isfinite(rate_Hz) || rate_Hz <= 0.0) bytes.Refuse(kRate, "the frame rate is unusable");
+  if (in_header > 0.0 && std::abs(in_header / rate_Hz - 1.0) > kRounding) {
+    notes->push_back("the frame rate is taken from POINT:RATE, " + FormatNumber(rate_Hz) +
+                     " Hz; the header has " + FormatNumber(in_header) + " Hz");
+  }
   return rate_Hz;
 }
 
@@ -272,7 +279,7 @@ C3dLayout ReadC3dLayout(C3dBytes& bytes, const C3dOptions& options) {
   const double scale = ReadScale(bytes, parameters);
   layout.real_points = scale < 0.0;
   layout.scale = std::abs(scale);
-  layout.rate_Hz = ReadRate(bytes, parameters);
+  layout.rate_Hz = ReadRate(bytes, parameters, &layout.notes);
   layout.metres_per_unit = ReadUnit(bytes, parameters, options);
   layout.labels = ReadLabels(parameters, layout.point_count);
   MarkOtherQuantities(parameters, &layout);

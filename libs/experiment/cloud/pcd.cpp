@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,15 @@ struct Field {
 
   std::size_t bytes() const { return scalar.bytes * count; }
 };
+
+/// Red, green and blue as they are packed in one number of text. A float that holds them is tiny,
+/// or negative, or no number: a whole number from 1 on is the packed integer itself, under whatever
+/// type. What is no number keeps no colour; it is black.
+std::uint64_t PackedColor(const Scalar& scalar, double value) {
+  if (!std::isfinite(value)) return 0;
+  const bool is_integer = value >= 1.0 && value <= 0xffffffff && value == std::floor(value);
+  return is_integer ? static_cast<std::uint64_t>(value) : scalar.BitsOf(value);
+}
 
 enum class Data { kAscii, kBinary, kCompressed };
 
@@ -229,7 +239,7 @@ class PcdReader {
       const auto value = [&](const char* name) { return values[header_.Find(name)->column]; };
       builder->Add({value("x"), value("y"), value("z")});
       if (const Field* color = Color()) {
-        builder->AddColor(color->scalar.BitsOf(values[color->column]));
+        builder->AddColor(PackedColor(color->scalar, values[color->column]));
       }
     }
   }

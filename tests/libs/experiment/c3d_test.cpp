@@ -19,6 +19,7 @@ using test_support::TestFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 C3dContent TwoPoints() {
   C3dContent content;
@@ -123,6 +124,20 @@ TEST(C3d, ReadsLabelsBeyondTheFirstParameterAndNamesTheRest) {
   content.frames.assign(2, std::vector<C3dContent::Point>(7));
   EXPECT_THAT(ReadBytes(WriteC3d(content)).tracks.names,
               ElementsAre("p0", "p1", "p2", "p3", "unlabelled_5", "p5", "p6"));
+}
+
+TEST(C3d, SaysWhichOfTwoFrameRatesCounts) {
+  std::string bytes = WriteC3d(TwoPoints());
+  constexpr std::size_t kRateOfHeader = 20;
+  const auto set_rate = [&](float rate_Hz) {
+    std::memcpy(bytes.data() + kRateOfHeader, &rate_Hz, sizeof(rate_Hz));
+  };
+  set_rate(25.0F);
+  const CapturedMarkers captured = ReadBytes(bytes);
+  EXPECT_EQ(captured.rate_Hz, 50.0);
+  EXPECT_THAT(captured.notes, ElementsAre(HasSubstr("POINT:RATE, 50 Hz; the header has 25 Hz")));
+  set_rate(0.0F);
+  EXPECT_THAT(ReadBytes(bytes).notes, IsEmpty());
 }
 
 TEST(C3d, PointsOfOneLabelGetNumbersWhereBothAreSeen) {

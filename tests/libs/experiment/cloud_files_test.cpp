@@ -143,6 +143,16 @@ TEST(Pcd, ReadsAColourPackedInAFloatOfText) {
   EXPECT_THAT(cloud.colors_rgb, ElementsAre(0xaa, 0x55, 0x01));
 }
 
+TEST(Pcd, ReadsAColourPackedInAnIntegerOfTextUnderAnyType) {
+  for (const std::string type : {"F", "U", "I"}) {
+    const PointCloud cloud =
+        ReadText("a.pcd", "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F " + type +
+                              "\nWIDTH 3\nHEIGHT 1\nDATA ascii\n1 2 3 11162881\n"
+                              "1 2 3 4289352961\n1 2 3 nan\n");
+    EXPECT_THAT(cloud.colors_rgb, ElementsAre(0xaa, 0x55, 0x01, 0xaa, 0x55, 0x01, 0, 0, 0)) << type;
+  }
+}
+
 TEST(Pcd, ReadsCompressedPointsFieldByField) {
   const std::string points = Float(1) + Float(4) + Float(2) + Float(5) + Float(3) + Float(6);
   std::string packed = Bytes({23}) + points;  // one literal run

@@ -86,6 +86,8 @@ TEST_F(StampedFolder, OtherUnitsOfTimeAreNamed) {
               AllOf(HasSubstr("look like milliseconds"), HasSubstr("frame_rate_Hz: 1000)")));
   EXPECT_THAT(message({"1712000000000000.ply", "1712000000033333.ply"}),
               AllOf(HasSubstr("look like microseconds"), HasSubstr("frame_rate_Hz: 1000000)")));
+  EXPECT_THAT(message({"1712000000000000.ply", "1712000000200000.ply", "1712000000400000.ply"}),
+              AllOf(HasSubstr("look like microseconds"), HasSubstr("frame_rate_Hz: 1000000)")));
 }
 
 TEST_F(StampedFolder, NumbersOfFramesHaveTimesWithARate) {
