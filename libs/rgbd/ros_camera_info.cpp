@@ -51,6 +51,28 @@ Distortion ReadLens(const ConfigNode& root) {
                     "calibrate the camera with plumb_bob, or rectify its images");
 }
 
+/// Images that are binned or cut have other intrinsics than the matrix, which is of the whole
+/// image.
+void RefusePartOfImage(const ConfigNode& root) {
+  for (const char* key : {"binning_x", "binning_y"}) {
+    const ConfigNode* binning = root.Find(key);
+    if (binning == nullptr || ReadInteger(*binning, 0, kWidest_px) <= 1) continue;
+    Refuse(*binning,
+           "the images are binned: record them without, or write the intrinsics of the "
+           "binned images with " +
+               std::string(key) + ": 1");
+  }
+  const ConfigNode* roi = root.Find("roi");
+  if (roi == nullptr) return;
+  for (const char* key : {"x_offset", "y_offset"}) {
+    const ConfigNode* offset = roi->Find(key);
+    if (offset == nullptr || ReadInteger(*offset, 0, kWidest_px) == 0) continue;
+    Refuse(*offset,
+           "the images are a part of the sensor's: record them whole, or write the "
+           "intrinsics of the part without 'roi'");
+  }
+}
+
 }  // namespace
 
 bool IsRosCameraInfo(const ConfigNode& root) {
@@ -61,6 +83,7 @@ bool IsRosCameraInfo(const ConfigNode& root) {
 
 RgbdCamera ReadRosCameraInfo(const ConfigNode& root) {
   constexpr std::size_t kEntries = 9;
+  RefusePartOfImage(root);
   RgbdCamera camera;
   camera.depth.width_px = ReadInteger(RequireAny(root, {"image_width", "width"}), 1, kWidest_px);
   camera.depth.height_px = ReadInteger(RequireAny(root, {"image_height", "height"}), 1, kWidest_px);

@@ -157,7 +157,7 @@ std::vector<std::string> ReadLabels(const C3dParameters& parameters, std::size_t
   std::vector<std::string> labels = LongList(parameters, "POINT:LABELS");
   labels.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (labels[i].empty()) labels[i] = std::string(kUnlabelledPrefix) + std::to_string(i + 1);
+    if (HasNoName(labels[i])) labels[i] = std::string(kUnlabelledPrefix) + std::to_string(i + 1);
   }
   return labels;
 }

@@ -98,6 +98,12 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
+bool HasNoName(std::string_view label) {
+  const std::string word = LowerCase(label);
+  return word.empty() || word.starts_with('*') || word.starts_with("unlabeled") ||
+         word.starts_with("unlabelled");
+}
+
 bool ParseWithPointOrComma(std::string_view text, double* value) {
   std::string with_point(text);
   std::replace(with_point.begin(), with_point.end(), ',', '.');

@@ -56,6 +56,9 @@ class CaptureText {
 /// `text` in lower case.
 std::string LowerCase(std::string_view text);
 
+/// Whether `label` is what programs call a trajectory that nobody named: "", "*12", "Unlabeled 12".
+bool HasNoName(std::string_view label);
+
 /// The whole of `text` as a finite number, with a decimal point or a decimal comma.
 bool ParseWithPointOrComma(std::string_view text, double* value);
 

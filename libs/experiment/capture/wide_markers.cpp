@@ -14,16 +14,6 @@
 
 namespace palpate::experiment {
 
-namespace {
-
-bool HasNoName(std::string_view name) {
-  const std::string word = LowerCase(name);
-  return word.empty() || word.starts_with('*') || word.starts_with("unlabeled") ||
-         word.starts_with("unlabelled");
-}
-
-}  // namespace
-
 WideMarkers::WideMarkers(const CaptureText& text, const Options& options)
     : text_(text), options_(options) {}
 

@@ -111,6 +111,10 @@ RgbdSequence OpenTumFolder(const fs::path& folder, const ConfigLoader& load) {
     throw InputError(SourceLocation{folder.string()},
                      "no depth image has a colour image within 20 ms");
   }
+  if (sequence.unpaired > 0) {
+    sequence.notes.push_back(folder.string() + ": " + std::to_string(sequence.unpaired) +
+                             " depth images without a colour image within 20 ms are left out");
+  }
   return sequence;
 }
 

@@ -120,10 +120,11 @@ TEST(C3d, ReadsLabelsBeyondTheFirstParameterAndNamesTheRest) {
   C3dContent content;
   for (int i = 0; i < 7; ++i) content.labels.push_back("p" + std::to_string(i));
   content.labels[4] = " ";
+  content.labels[5] = "*12";
   content.labels_in_one_parameter = 3;
   content.frames.assign(2, std::vector<C3dContent::Point>(7));
   EXPECT_THAT(ReadBytes(WriteC3d(content)).tracks.names,
-              ElementsAre("p0", "p1", "p2", "p3", "unlabelled_5", "p5", "p6"));
+              ElementsAre("p0", "p1", "p2", "p3", "unlabelled_5", "unlabelled_6", "p6"));
 }
 
 TEST(C3d, SaysWhichOfTwoFrameRatesCounts) {

@@ -155,6 +155,7 @@ TEST_F(RgbdSequenceTest, PairsTheImagesOfATumFolderByNearestTime) {
   const RgbdSequence& sequence = sequences[0];
   ASSERT_THAT(sequence.frames, SizeIs(2));
   EXPECT_EQ(sequence.unpaired, 2u);
+  EXPECT_THAT(sequence.notes, ElementsAre(HasSubstr("2 depth images without a colour image")));
   EXPECT_EQ(sequence.frames[0].t_ns, 1305031453374112000);
   EXPECT_EQ(sequence.frames[1].t_ns, 1305031453420000000);
   rgbd::RgbdFrame frame;

@@ -48,6 +48,17 @@ TEST(RosCameraInfo, IsReadAsAMessageIsPrinted) {
   EXPECT_FALSE(camera.depth.distorted());
 }
 
+TEST(RosCameraInfo, ImagesThatAreBinnedOrCutAreRefused) {
+  const std::string whole = Calibration("plumb_bob", "[0, 0, 0, 0, 0]") + "unit_m: 0.001\n";
+  EXPECT_EQ(Read(whole + "binning_x: 0\nbinning_y: 1\nroi: {x_offset: 0, y_offset: 0, width: 0}\n")
+                .depth.width_px,
+            640);
+  EXPECT_THAT(MessageOf([&] { Read(whole + "binning_y: 2\n"); }),
+              HasSubstr("the images are binned"));
+  EXPECT_THAT(MessageOf([&] { Read(whole + "roi: {x_offset: 8, y_offset: 0}\n"); }),
+              HasSubstr("a part of the sensor's"));
+}
+
 TEST(RosCameraInfo, DistortionMayHaveFourFiveOrEightNumbers) {
   const auto distortion = [](const std::string& model, const std::string& numbers) {
     return Read(Calibration(model, numbers) + "unit_m: 0.001\n").depth.distortion;
