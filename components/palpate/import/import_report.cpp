@@ -47,9 +47,10 @@ std::optional<Eigen::Vector3d> PrintQuality(const CapturedMarkers& captured,
   if (!window && recording.reference) window = recording.reference->window_s;
   const auto quality = experiment::AssessCapture(captured, window);
   const auto& frames = captured.tracks.frames;
-  report << fmt::format("{} markers, {} frames at {:g} Hz, {:.2f} s to {:.2f} s, {} missing\n",
-                        quality.markers.size(), frames.size(), captured.rate_Hz, frames.front().t_s,
-                        frames.back().t_s, quality.missing_frames);
+  report << fmt::format(
+      "{} markers, {} frames at {:g} Hz, {:.2f} s to {:.2f} s, {} frames missing\n",
+      quality.markers.size(), frames.size(), captured.rate_Hz, frames.front().t_s,
+      frames.back().t_s, quality.missing_frames);
   report << fmt::format("static noise from {:.2f} s to {:.2f} s{}\n",
                         quality.noise_window_s.begin_s, quality.noise_window_s.end_s,
                         window ? "" : " (the quietest)");

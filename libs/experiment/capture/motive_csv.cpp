@@ -88,6 +88,11 @@ CapturedMarkers ReadMotiveCsv(CaptureText& text) {
   std::vector<std::string> notes;
   if (columns.empty()) {
     columns = PositionsOf(header, "rigid body marker");
+    if (!columns.empty() && LowerCase(header.Setting("coordinate space")) == "local") {
+      throw InputError(SourceLocation{text.file(), 1},
+                       "Coordinate Space is Local: these markers are in the frames of their rigid "
+                       "bodies, which move; export in Global, and 'Markers'");
+    }
     if (!columns.empty()) {
       notes.emplace_back(
           "the markers are those of rigid bodies, where the body's fit has them; export 'Markers' "

@@ -5,10 +5,12 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -63,6 +65,21 @@ ScalarType ReadType(Scanner* scanner) {
   const std::string_view name = scanner->Token("a data type");
   if (const auto type = FindType(name)) return *type;
   scanner->Fail("data type '" + Excerpt(name) + "' is not read");
+}
+
+/// VTK writes blanks and other letters of names as %20.
+std::string Decoded(std::string_view name) {
+  std::string decoded;
+  for (size_t k = 0; k < name.size(); ++k) {
+    unsigned code = 0;
+    const std::string_view hex = name.substr(k + 1, 2);
+    const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), code, 16);
+    const bool coded =
+        name[k] == '%' && hex.size() == 2 && error == std::errc() && end == hex.data() + 2;
+    decoded.push_back(coded ? static_cast<char>(code) : name[k]);
+    if (coded) k += 2;
+  }
+  return decoded;
 }
 
 /// One entry of a binary string array: its length, whose two highest bits say in how many bytes
@@ -425,7 +442,7 @@ void LegacyReader::TakeCellArray(const std::string& name, ScalarType type, int64
   std::vector<double> values;
   values.reserve(static_cast<size_t>(count));
   for (int64_t k = 0; k < count; ++k) values.push_back(scanner_.RealOrNan(type, "cell data"));
-  if (components == 1) builder_->AddVtkCellData(name, 0, values);
+  if (components == 1) builder_->AddVtkCellData(Decoded(name), 0, values);
 }
 
 }  // namespace

@@ -335,7 +335,7 @@ TEST_F(ImportVerbTest, ReportsGapsResidualsAndNoise) {
   Import();
   EXPECT_THAT(
       report_.str(),
-      AllOf(HasSubstr("4 markers, 4 frames at 10 Hz, 0.00 s to 0.30 s, 0 missing"),
+      AllOf(HasSubstr("4 markers, 4 frames at 10 Hz, 0.00 s to 0.30 s, 0 frames missing"),
             HasSubstr("residual 0.200 mm"), HasSubstr("seen 3, gaps 1"), HasSubstr("noise")));
 }
 

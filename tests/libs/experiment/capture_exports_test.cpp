@@ -75,6 +75,12 @@ TEST(CaptureExports, RefusesAMotiveFileWithoutMarkersOrUnit) {
                       "Rigid Body\n,Name,A,A,A\n,,Position,Position,Position\n"
                       "Frame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n"),
       HasSubstr("without markers"));
+  EXPECT_THAT(
+      RefusalOfExport("take.csv",
+                      "Format Version,1.23,Length Units,Meters,Coordinate Space,Local\n\n"
+                      ",Type,Rigid Body Marker,Rigid Body Marker,Rigid Body Marker\n,Name,A,A,A\n"
+                      ",,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n"),
+      HasSubstr("export in Global"));
 }
 
 // Nexus writes devices and trajectories one after the other, and velocities beside positions.
