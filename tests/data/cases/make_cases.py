@@ -214,6 +214,15 @@ def abaqus(eol="\n"):
     return (eol.join(rows) + eol).encode()
 
 
+def abaqus_cae():
+    """A part, and an assembly whose reference point has a number that a node has, too."""
+    part = abaqus().decode().replace("*HEADING\nbar\n", "*HEADING\nbar\n*PART, NAME=bar\n")
+    part = part.replace("TYPE=C3D4, ELSET=all", "TYPE=C3D4,\n ELSET=all")
+    return (part + "*END PART\n*ASSEMBLY, NAME=a\n*INSTANCE, NAME=bar-1, PART=bar\n*END INSTANCE\n"
+            "*NODE\n1, 0., 0., 99.\n*ELSET, ELSET=both, INSTANCE=bar-1\nLEFT,\n"
+            "*END ASSEMBLY\n").encode()
+
+
 def medit():
     nodes, cells, left = bar()
     return (f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(nodes)}\n" +
@@ -428,7 +437,7 @@ MESHES = {
     "plain.vtu": vtu(), "zlib_big_endian.vtu": vtu("zlib", order="BigEndian"),
     "lz4.vtu": vtu("lz4"), "lz4_raw.vtu": vtu("lz4", "raw", wide=True),
     "lzma.vtu": vtu("lzma"), "lzma_base64.vtu": vtu("lzma", "base64"),
-    "abaqus.inp": abaqus(), "abaqus_crlf.inp": abaqus("\r\n"), "medit.mesh": medit(),
+    "abaqus.inp": abaqus(), "abaqus_crlf.inp": abaqus("\r\n"), "abaqus_cae.inp": abaqus_cae(), "medit.mesh": medit(),
 }
 
 CAPTURES = {
