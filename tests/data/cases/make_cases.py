@@ -437,7 +437,8 @@ MESHES = {
     "plain.vtu": vtu(), "zlib_big_endian.vtu": vtu("zlib", order="BigEndian"),
     "lz4.vtu": vtu("lz4"), "lz4_raw.vtu": vtu("lz4", "raw", wide=True),
     "lzma.vtu": vtu("lzma"), "lzma_base64.vtu": vtu("lzma", "base64"),
-    "abaqus.inp": abaqus(), "abaqus_crlf.inp": abaqus("\r\n"), "abaqus_cae.inp": abaqus_cae(), "medit.mesh": medit(),
+    "abaqus.inp": abaqus(), "abaqus_crlf.inp": abaqus("\r\n"), "abaqus_cae.inp": abaqus_cae(),
+    "medit.mesh": medit(),
 }
 
 CAPTURES = {
