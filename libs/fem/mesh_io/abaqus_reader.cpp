@@ -5,8 +5,8 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <map>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -322,11 +322,16 @@ class AbaqusReader {
     const auto from = tets_of_set_.find(other->second);
     if (from == tets_of_set_.end()) return false;
     std::vector<int>& own = tets_of_set_[set];
-    const std::set<int> before(own.begin(), own.end());
-    std::set<int> all = before;
-    all.insert(from->second.begin(), from->second.end());
-    own.assign(all.begin(), all.end());
-    return all.size() > before.size();
+    for (std::vector<int>* tets : {&own, &from->second}) {
+      std::sort(tets->begin(), tets->end());
+      tets->erase(std::unique(tets->begin(), tets->end()), tets->end());
+    }
+    std::vector<int> all;
+    std::set_union(own.begin(), own.end(), from->second.begin(), from->second.end(),
+                   std::back_inserter(all));
+    const bool larger = all.size() > own.size();
+    own = std::move(all);
+    return larger;
   }
 
   void FinishSets() {
