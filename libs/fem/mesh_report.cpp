@@ -133,12 +133,13 @@ std::array<int, kCorners> Sorted(std::array<int, kCorners> nodes) {
   return nodes;
 }
 
-std::vector<int> FindDuplicateCells(const TetMesh& mesh, const std::vector<int>& cells) {
+/// `first_at_place` [nodes]: a body that a file holds twice has nodes of its own each time.
+std::vector<int> FindDuplicateCells(const TetMesh& mesh, const std::vector<int>& cells,
+                                    const std::vector<int>& first_at_place) {
   std::vector<std::pair<std::array<int, 4>, int>> keyed;
   for (const int cell : cells) {
-    keyed.emplace_back(Sorted<4>({mesh.cells(0, cell), mesh.cells(1, cell), mesh.cells(2, cell),
-                                  mesh.cells(3, cell)}),
-                       cell);
+    const auto corner = [&](int k) { return first_at_place[At(mesh.cells(k, cell))]; };
+    keyed.emplace_back(Sorted<4>({corner(0), corner(1), corner(2), corner(3)}), cell);
   }
   std::sort(keyed.begin(), keyed.end());
   std::vector<int> duplicates;
@@ -209,7 +210,10 @@ void JudgeUseOfNodes(const TetMesh& mesh, const std::vector<int>& cells, MeshRep
   }
 }
 
-void JudgePlacesOfNodes(const TetMesh& mesh, MeshReport* report) {
+/// [nodes] the first node exactly where each is: itself where no earlier one is there.
+std::vector<int> JudgePlacesOfNodes(const TetMesh& mesh, MeshReport* report) {
+  std::vector<int> first_at_place(static_cast<size_t>(mesh.NodeCount()));
+  std::iota(first_at_place.begin(), first_at_place.end(), 0);
   std::vector<int> finite;
   for (int node = 0; node < mesh.NodeCount(); ++node) {
     (mesh.nodes_m.col(node).allFinite() ? finite : report->nonfinite_nodes).push_back(node);
@@ -220,9 +224,12 @@ void JudgePlacesOfNodes(const TetMesh& mesh, MeshReport* report) {
   std::sort(finite.begin(), finite.end(),
             [&](int a, int b) { return std::tuple(place(a), a) < std::tuple(place(b), b); });
   for (size_t k = 1; k < finite.size(); ++k) {
-    if (place(finite[k]) == place(finite[k - 1])) report->duplicate_nodes.push_back(finite[k]);
+    if (place(finite[k]) != place(finite[k - 1])) continue;
+    report->duplicate_nodes.push_back(finite[k]);
+    first_at_place[At(finite[k])] = first_at_place[At(finite[k - 1])];
   }
   std::sort(report->duplicate_nodes.begin(), report->duplicate_nodes.end());
+  return first_at_place;
 }
 
 /// Cells whose nodes all exist; the others go to the report.
@@ -258,10 +265,10 @@ MeshReport ReportMesh(const TetMesh& mesh) {
     PALPATE_CHECK(mesh.cells.rows() == 4 || mesh.cells.rows() == 10, mesh.cells.rows());
   }
   std::vector<int> cells = CellsOfExistingNodes(mesh, &report);
-  JudgePlacesOfNodes(mesh, &report);
+  const std::vector<int> first_at_place = JudgePlacesOfNodes(mesh, &report);
   JudgeUseOfNodes(mesh, cells, &report);
   JudgeCells(mesh, cells, &report);
-  report.duplicate_cells = FindDuplicateCells(mesh, cells);
+  report.duplicate_cells = FindDuplicateCells(mesh, cells, first_at_place);
   std::vector<int> distinct_cells;
   std::set_difference(cells.begin(), cells.end(), report.duplicate_cells.begin(),
                       report.duplicate_cells.end(), std::back_inserter(distinct_cells));
@@ -318,7 +325,7 @@ void CheckSolvable(const TetMesh& mesh, const MeshReport& report, const std::str
   refuse_any(report.nonfinite_nodes, "nodes have a coordinate that is not finite");
   refuse_any(report.degenerate_cells, "degenerate cells (flat, or a node twice)");
   refuse_any(report.inverted_cells, "inverted cells");
-  refuse_any(report.duplicate_cells, "duplicate cells (same nodes as an earlier one)");
+  refuse_any(report.duplicate_cells, "duplicate cells (same corners as an earlier one)");
   if (report.overshared_faces > 0) {
     refuse(std::to_string(report.overshared_faces) +
            " faces are shared by more than two cells: cells overlap");

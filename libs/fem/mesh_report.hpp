@@ -39,7 +39,7 @@ struct MeshReport {
 
   std::vector<int> inverted_cells;    ///< negative volume, or det J <= 0 at a point of integration
   std::vector<int> degenerate_cells;  ///< flat: quality of 1e-6 or less whatever the sign
-  std::vector<int> duplicate_cells;   ///< same corners as an earlier cell
+  std::vector<int> duplicate_cells;   ///< corners exactly where an earlier cell has them
   std::vector<int> bad_index_cells;
   std::vector<int> duplicate_nodes;  ///< exactly where an earlier node is
   std::vector<int> unused_nodes;     ///< of no cell: they stay, and must be held

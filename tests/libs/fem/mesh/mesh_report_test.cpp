@@ -133,7 +133,19 @@ TEST(MeshReport, FindsDuplicateCellsWhateverTheOrderOfTheirNodes) {
   const MeshReport report = ReportMesh(mesh);
   EXPECT_THAT(report.duplicate_cells, ElementsAre(48));
   EXPECT_EQ(report.boundary_triangles, 48);
-  EXPECT_THAT(RefusalOf(mesh), HasSubstr("1 duplicate cells (same nodes as an earlier one): 48"));
+  EXPECT_THAT(RefusalOf(mesh), HasSubstr("1 duplicate cells (same corners as an earlier one): 48"));
+}
+
+/// As files of several pieces hold it where each piece was written with the whole.
+TEST(MeshReport, FindsABodyThatIsThereTwice) {
+  const TetMesh cube = CubeMesh(2);
+  TetMesh mesh = cube;
+  mesh.nodes_m.conservativeResize(3, 2 * cube.NodeCount());
+  mesh.nodes_m.rightCols(cube.NodeCount()) = cube.nodes_m;
+  mesh.cells.conservativeResize(4, 2 * cube.CellCount());
+  mesh.cells.rightCols(cube.CellCount()) = cube.cells.array() + cube.NodeCount();
+  EXPECT_EQ(std::ssize(ReportMesh(mesh).duplicate_cells), cube.CellCount());
+  EXPECT_THAT(RefusalOf(mesh), HasSubstr("48 duplicate cells"));
 }
 
 TEST(MeshReport, FindsOverlappingCells) {
