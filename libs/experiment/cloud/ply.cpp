@@ -26,6 +26,16 @@ namespace {
 constexpr std::array<std::string_view, 6> kWanted = {"x", "y", "z", "red", "green", "blue"};
 using Vertex = std::array<double, kWanted.size()>;
 
+/// The place among kWanted of what some programs write as `diffuse_red` or `r`; its size: none.
+std::size_t PlaceOf(std::string_view property) {
+  constexpr std::string_view kDiffuse = "diffuse_";
+  if (property.starts_with(kDiffuse)) property.remove_prefix(kDiffuse.size());
+  const auto wanted = std::find_if(kWanted.begin(), kWanted.end(), [property](auto name) {
+    return property == name || (name.size() > 1 && property == name.substr(0, 1));
+  });
+  return static_cast<std::size_t>(wanted - kWanted.begin());
+}
+
 /// Hands out one number after the other, from text or bytes.
 class NumberSource {
  public:
@@ -68,8 +78,9 @@ class NumberSource {
 
   /// After the last item. Throws InputError where data are left.
   void CheckEnd() const {
+    constexpr std::size_t kLineEnd = 2;  // that editors leave behind bytes
     const bool blank = rest_.find_first_not_of(" \t\r\n") == std::string_view::npos;
-    if (rest_.empty() || (format_ == PlyFormat::kAscii && blank)) return;
+    if (blank && (format_ == PlyFormat::kAscii || rest_.size() <= kLineEnd)) return;
     throw InputError(SourceLocation{file_},
                      std::to_string(rest_.size()) +
                          " bytes are left after the last element: the properties in the header "
@@ -108,9 +119,8 @@ class NumberSource {
 std::vector<std::optional<std::size_t>> PlacesOf(const PlyElement& vertex) {
   std::vector<std::optional<std::size_t>> places;
   for (const PlyProperty& property : vertex.properties) {
-    const auto wanted = std::find(kWanted.begin(), kWanted.end(), property.name);
-    const auto place = static_cast<std::size_t>(wanted - kWanted.begin());
-    const bool usable = wanted != kWanted.end() && !property.list;
+    const std::size_t place = PlaceOf(property.name);
+    const bool usable = place < kWanted.size() && !property.list;
     places.push_back(usable ? std::optional(place) : std::nullopt);
   }
   return places;
@@ -122,7 +132,8 @@ class ColorScale {
  public:
   explicit ColorScale(const PlyElement& vertex) {
     for (const PlyProperty& property : vertex.properties) {
-      if (std::find(kWanted.begin() + 3, kWanted.end(), property.name) == kWanted.end()) continue;
+      const std::size_t place = PlaceOf(property.name);
+      if (place < 3 || place == kWanted.size()) continue;
       is_float_ = is_float_ || property.scalar.kind == Scalar::Kind::kFloat;
       is_wide_ = property.scalar.kind == Scalar::Kind::kUnsigned && property.scalar.bytes == 2;
     }

@@ -260,6 +260,29 @@ TEST(Ply, ReadsColoursOfEveryType) {
   EXPECT_THAT(Refusal("a.ply", ColoredPly("int", "0 -2 0", "0 0 0")), HasSubstr("colour is -2"));
 }
 
+TEST(Ply, KnowsTheNamesThatProgramsGiveColours) {
+  const std::string rows = "end_header\n1 2 3 10 20 30\n";
+  for (const std::string prefix : {"", "diffuse_"}) {
+    std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n";
+    head += "property float y\nproperty float z\n";
+    for (const char* channel : {"red", "green", "blue"}) {
+      const std::string name = prefix.empty() ? std::string(1, *channel) : prefix + channel;
+      head += "property uchar " + name + "\n";
+    }
+    EXPECT_THAT(ReadText("a.ply", head + rows).colors_rgb, ElementsAre(10, 20, 30)) << prefix;
+  }
+}
+
+TEST(Ply, TakesTheLineEndThatAnEditorLeavesBehindBytes) {
+  const std::string head =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n";
+  const std::string point = Float(1, false) + Float(2, false) + Float(3, false);
+  EXPECT_EQ(ReadText("a.ply", head + point + "\n").points_m.col(0), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(ReadText("a.ply", head + point + "\r\n").points_m.cols(), 1);
+  EXPECT_THAT(Refusal("a.ply", head + point + "\n\n\n"), HasSubstr("3 bytes are left"));
+}
+
 TEST(Ply, ReadsBytesInEitherOrder) {
   for (const bool big : {false, true}) {
     const auto order = [&](std::string little) {
