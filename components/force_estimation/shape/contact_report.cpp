@@ -93,8 +93,8 @@ ContactReport::ContactReport(const ShapeConfig& config, double force_relative_si
 
 /// At its location: the test is against no force, where a location has no meaning. A hidden contact
 /// is the best of many candidates, so that the chance is divided by their number.
-/// Where the body is fixed, a push is not determined. Its variance of zero would be infinite
-/// strength.
+/// Where the body is fixed, a push is not determined. Its force and variance of zero would give no
+/// number, which is never quiet.
 double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const {
   if (fit.fitter().fit().observability[site] == Observability::kNone) return 0.0;
   const bool hidden = fit.sites()[site].hidden;

@@ -139,6 +139,21 @@ TEST_F(Contacts, WhosePlaceWasNotFittedAreAsUncertainAsTheyWereSeen) {
   EXPECT_LT(fitted_m, seen_m);
 }
 
+/// No shape tells of a push on the soles, which are fixed. What went there from where it pushed is
+/// no longer a contact, of 0 N either.
+TEST_F(Contacts, ThatWentToTheClampAreLeftOut) {
+  Fit(SeenFrameOf(Solve(kForce_N)));
+  report_.Judge(t_s_, false, &fit_);
+  ASSERT_EQ(report_.Contacts(fit_).size(), 1u);
+  pushed_at_m_ = {0.0825, 0.0, 0.0};
+  Fit(SeenFrameOf(free_));
+  report_.Judge(t_s_, false, &fit_);
+  ASSERT_EQ(fit_.sites().size(), 1u);
+  ASSERT_EQ(fit_.sites()[0].name, "finger");
+  ASSERT_EQ(fit_.fitter().fit().observability[0], Observability::kNone);
+  EXPECT_TRUE(report_.Contacts(fit_).empty());
+}
+
 TEST_F(Contacts, HoldZeroWhereNobodyPushes) {
   Fit(SeenFrameOf(free_));
   ASSERT_EQ(fit_.sites().size(), 1u);
