@@ -7,18 +7,16 @@
 #include <cmath>
 
 #include "components/calibration/joint/solved_state.hpp"
+#include "components/calibration/model_tolerance.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
 namespace {
 
-/// Larger values accept worse fits. Measured robots fit within a third of the tolerances
-/// (docs/benchmarks.md), and one exchanged pair of labels exceeds them tenfold.
+/// Larger values accept worse fits. One exchanged pair of labels exceeds ModelTolerance tenfold.
 struct FitCheckFitCheckTuning {
-  double placement_share = 0.005;  ///< of the body's extent: where a marker sits
-  double motion_share = 0.03;      ///< of a marker's motion: what a model of the robot errs by
-  double most_chi_squared = 9.0;   ///< over its degrees of freedom: three standard deviations
+  double most_chi_squared = 9.0;  ///< over its degrees of freedom: three standard deviations
   /// Of a pose with six degrees of freedom: exceeded by chance once in a million.
   double most_pose_chi_squared = 38.0;
 };
@@ -27,15 +25,15 @@ constexpr FitCheckFitCheckTuning kFitCheckTuning;
 /// Adds one frame's markers; returns their expected squares, m^2.
 double AddFrame(const robot::RobotModel& model, const CalibrationFrame& frame,
                 const Eigen::VectorXd& x_m, const Eigen::Matrix3Xd& residual_m, FitCheck* check) {
-  const double placement_m = kFitCheckTuning.placement_share * ExtentOf(model.RestState().x_m);
+  const double extent_m = ExtentOf(model.RestState().x_m);
   double expected_m2 = 0.0;
   for (std::size_t k = 0; k < frame.markers.size(); ++k) {
     const MarkerSighting& sighting = frame.markers[k];
     const auto& point = model.body().markers.at(At(sighting.marker)).point;
     const double motion_m = (point.weights.Position(x_m) - point.rest_m).norm();
     // Equal in all directions, so that the sighting's frame does not matter.
-    const double variance_m2 = sighting.covariance_m2.trace() / 3.0 + placement_m * placement_m +
-                               std::pow(kFitCheckTuning.motion_share * motion_m, 2);
+    const double variance_m2 =
+        sighting.covariance_m2.trace() / 3.0 + ModelVariance_m2(extent_m, motion_m);
     check->chi_squared += residual_m.col(ToIndex(k)).squaredNorm() / variance_m2;
     expected_m2 += 3.0 * variance_m2;
   }

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -25,22 +23,13 @@ namespace {
 struct MisfitTuning {
   /// Residual over that of the data as they are below which a mistake counts as the reason.
   double explains = 0.5;
-  double near_unit = 0.1;       ///< relative difference from the ratio of two units
-  double near_axis_rad = 0.17;  ///< turn from one between axes that still counts as that
-  double alone = 3.0;           ///< ratio of the residuals of one recording and of the others
-  double other_modulus = 5.0;   ///< factor on the motion that no sound modulus is off by
-  double near_rest = 0.2;       ///< residual of the undeformed body over the markers' spread
+  double alone = 3.0;          ///< ratio of the residuals of one recording and of the others
+  double other_modulus = 5.0;  ///< factor on the motion that no sound modulus is off by
+  double near_rest = 0.2;      ///< residual of the undeformed body over the markers' spread
 };
 constexpr MisfitTuning kMisfitTuning;
 
 using Reason = MisfitReason::Kind;
-
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  std::array<char, 320> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 /// Markers that were seen from one place.
 struct Group {
@@ -173,12 +162,12 @@ double Misfit::RegisteredRms_m(double scale, int exchanged_a, int exchanged_b) c
 }
 
 void Misfit::Take(Reason kind, double rms_m, const std::string& text) {
-  result_.reasons.push_back({kind, text + Format(" (then %.2f mm RMS)", 1e3 * rms_m), rms_m});
+  result_.reasons.push_back({kind, text + FormatReason(" (then %.2f mm RMS)", 1e3 * rms_m), rms_m});
 }
 
 void Misfit::TryLabels() {
   const int count = static_cast<int>(names_.size());
-  double best_m = result_.residual_rms_m;
+  double best_m = result_.residual;
   std::pair<int, int> best;
   for (int a = 0; a < count; ++a) {
     for (int b = a + 1; b < count; ++b) {
@@ -188,29 +177,10 @@ void Misfit::TryLabels() {
       best = {a, b};
     }
   }
-  if (best_m > kMisfitTuning.explains * result_.residual_rms_m) return;
+  if (best_m > kMisfitTuning.explains * result_.residual) return;
   Take(Reason::kLabels, best_m,
        "labels: the markers " + names_[At(best.first)] + " and " + names_[At(best.second)] +
            " have each other's names; exchange them in markers.csv");
-}
-
-/// "y up" and the like: the nearest turn that takes axes to axes.
-std::optional<std::string> AxesText(const Eigen::Quaterniond& turn) {
-  const Eigen::Matrix3d R = turn.toRotationMatrix();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
-  std::string text;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    Eigen::Index largest = 0;
-    R.row(i).cwiseAbs().maxCoeff(&largest);
-    axes(i, largest) = R(i, largest) > 0.0 ? 1.0 : -1.0;
-    text += (i == 0 ? "" : ", ") + std::string(1, "xyz"[i]) + " is its " +
-            (axes(i, largest) > 0.0 ? "" : "-") + "xyz"[largest];
-  }
-  if (axes.determinant() < 0.5 || axes.isIdentity()) return std::nullopt;
-  if (Eigen::AngleAxisd(axes.transpose() * R).angle() > kMisfitTuning.near_axis_rad) {
-    return std::nullopt;
-  }
-  return "the axes of the measurement are not those assumed: the robot's " + text;
 }
 
 /// The pose that was given against the one by which the markers fit.
@@ -221,13 +191,10 @@ void Misfit::TryPose(const Group& group) {
                          std::sqrt(static_cast<double>(group.seen_m.cols()));
   const geometry::Registration found = geometry::RegisterRigid(group.seen_m, group.model_m);
   if (!found.status.ok() || found.rms_m > kMisfitTuning.explains * given_m) return;
-  const Eigen::Quaterniond turn = found.T_target_source.rotation() * given.rotation().conjugate();
-  const Eigen::Vector3d middle_m = group.seen_m.rowwise().mean();
-  const double off_m = (found.T_target_source * middle_m - given * middle_m).norm();
-  const std::string what =
-      group.given->name + Format(" puts the markers %.1f mm and %.1f degrees off", 1e3 * off_m,
-                                 180.0 / std::numbers::pi * Eigen::AngleAxisd(turn).angle());
-  const auto axes = AxesText(turn);
+  const PoseDifference off =
+      DifferenceOf(given, found.T_target_source, group.seen_m.rowwise().mean());
+  const std::string what = group.given->name + " puts the markers " + off.Text();
+  const auto axes = AxesText(off.turn);
   Take(Reason::kPose, found.rms_m,
        "pose, frame and axes: " + what + (axes ? "; " + *axes : std::string()) +
            "; import the markers with --register, or give the pose of this camera");
@@ -239,7 +206,7 @@ void Misfit::TryMirror() {
     const geometry::Registration found = geometry::RegisterRigid(group.seen_m, group.model_m);
     Add(SquaresOf(found.mirrored_rms_m, group.seen_m.cols()), &squares);
   }
-  if (squares.Rms_m() > kMisfitTuning.explains * result_.residual_rms_m) return;
+  if (squares.Rms_m() > kMisfitTuning.explains * result_.residual) return;
   Take(Reason::kMirrored, squares.Rms_m(),
        "axes: the markers are a mirror image of the robot's, so that one axis has the wrong sign "
        "(a left-handed frame) or left and right labels are exchanged");
@@ -251,19 +218,6 @@ Squares SpreadOf(const Eigen::Matrix3Xd& points_m) {
   return {(points_m.colwise() - middle_m).squaredNorm(), static_cast<double>(points_m.cols())};
 }
 
-std::optional<std::string> UnitOfRatio(double ratio) {
-  constexpr std::array<std::pair<double, const char*>, 6> kUnits{{{1e3, "millimetres"},
-                                                                  {1e2, "centimetres"},
-                                                                  {1e1, "decimetres"},
-                                                                  {1.0 / 0.0254, "inches"},
-                                                                  {1.0 / 0.3048, "feet"},
-                                                                  {1e-3, "kilometres"}}};
-  for (const auto& [of_metre, name] : kUnits) {
-    if (std::abs(ratio / of_metre - 1.0) < kMisfitTuning.near_unit) return name;
-  }
-  return std::nullopt;
-}
-
 void Misfit::TrySize() {
   Squares seen, there;
   for (const Group& group : groups_) {
@@ -273,11 +227,11 @@ void Misfit::TrySize() {
   if (seen.Rms_m() == 0.0) return;
   const double ratio = seen.Rms_m() / there.Rms_m();
   const double rms_m = RegisteredRms_m(1.0 / ratio);
-  if (rms_m > kMisfitTuning.explains * result_.residual_rms_m) return;
+  if (rms_m > kMisfitTuning.explains * result_.residual) return;
   const auto markers = UnitOfRatio(ratio);
   const auto mesh = UnitOfRatio(1.0 / ratio);
   const std::string sizes =
-      Format("the markers are %.4g times as far apart as the robot file's", ratio);
+      FormatReason("the markers are %.4g times as far apart as the robot file's", ratio);
   if (markers) {
     Take(Reason::kUnit, rms_m,
          "unit: " + sizes + "; are the columns x_m, y_m, z_m " + *markers + "?");
@@ -314,7 +268,7 @@ void Misfit::TryModulus() {
              ", and the markers are near those of the undeformed body" + unit);
     return;
   }
-  if (squares.Rms_m() > kMisfitTuning.explains * result_.residual_rms_m) return;
+  if (squares.Rms_m() > kMisfitTuning.explains * result_.residual) return;
   if (std::abs(both_m2) * kMisfitTuning.other_modulus > model_m2) return;
   Take(Reason::kModulus, squares.Rms_m(),
        "stiffness: the markers hardly move where the model bends far" + unit);
@@ -347,7 +301,7 @@ void Misfit::TryRecordings() {
   std::set<std::string> names;
   for (const CalibrationFrame& frame : frames_) names.insert(RecordingOf(frame.name));
   if (names.size() < 3) return;
-  double best_m = kMisfitTuning.explains * result_.residual_rms_m;
+  double best_m = kMisfitTuning.explains * result_.residual;
   double alone_m = 0.0;
   std::string best;
   for (const std::string& name : names) {
@@ -361,41 +315,29 @@ void Misfit::TryRecordings() {
   if (best.empty()) return;
   Take(Reason::kRecording, best_m,
        "load: " + best +
-           Format(" alone is %.1f mm off: does something touch the robot there, or does its "
-                  "loads.csv lack a load?",
-                  1e3 * alone_m));
+           FormatReason(" alone is %.1f mm off: does something touch the robot there, or does its "
+                        "loads.csv lack a load?",
+                        1e3 * alone_m));
 }
 
 MisfitReasons Misfit::Find() {
-  result_.residual_rms_m = RegisteredRms_m();
-  if (result_.residual_rms_m == 0.0) return result_;  // too few markers to register
+  result_.where_none =
+      "no pose, mirror image, unit or exchange of two labels explains it: another robot or other "
+      "markers, a load that loads.csv lacks, or a contact";
+  result_.not_excluded = "another robot, a load that loads.csv lacks";
+  result_.residual = RegisteredRms_m();
+  if (result_.residual == 0.0) return result_;  // too few markers to register
   TryLabels();
   for (const Group& group : groups_) TryPose(group);
   TryMirror();
   TrySize();
   TryModulus();
   TryRecordings();
-  std::stable_sort(result_.reasons.begin(), result_.reasons.end(),
-                   [](const MisfitReason& a, const MisfitReason& b) {
-                     return a.residual_rms_m < b.residual_rms_m;
-                   });
+  result_.SortBestFirst();
   return result_;
 }
 
 }  // namespace
-
-std::string MisfitReasons::Text() const {
-  if (reasons.empty()) {
-    return "no pose, mirror image, unit or exchange of two labels explains it: another robot or "
-           "other markers, a load that loads.csv lacks, or a contact";
-  }
-  std::string text;
-  for (std::size_t k = 0; k < reasons.size(); ++k) {
-    text +=
-        (k == 0 ? "" : "\n") + std::string("  ") + std::to_string(k + 1) + ". " + reasons[k].text;
-  }
-  return text + "\n  not excluded: another robot, a load that loads.csv lacks";
-}
 
 MisfitReasons FindMisfitReasons(robot::RobotModel& model,
                                 const std::vector<CalibrationFrame>& frames,

@@ -3,28 +3,12 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "components/calibration/joint/joint_request.hpp"
+#include "components/calibration/misfit_reason.hpp"
 
 namespace palpate::calibration {
-
-/// A mistake in data or settings that explains markers which do not fit.
-struct MisfitReason {
-  enum class Kind { kLabels, kPose, kMirrored, kUnit, kSize, kModulus, kRecording };
-  Kind kind = Kind::kPose;
-  std::string text;             ///< what is wrong, by how much, and the remedy
-  double residual_rms_m = 0.0;  ///< of the markers once it is mended
-};
-
-struct MisfitReasons {
-  double residual_rms_m = 0.0;        ///< of the data as they are, each group registered
-  std::vector<MisfitReason> reasons;  ///< those that explain the misfit, the best first
-
-  /// One line for each, and what was not tested.
-  std::string Text() const;
-};
 
 /// Tries mistakes one at a time: exchanged labels, a wrong pose or axes, a mirrored frame, another
 /// unit or size, another modulus, one recording unlike the others. The markers of all frames are

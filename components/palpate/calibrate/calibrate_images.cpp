@@ -12,9 +12,10 @@
 #include "components/calibration/joint/model_snapshot.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
-#include "components/palpate/calibrate/image_samples.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/images/image_misfit.hpp"
+#include "components/palpate/images/image_samples.hpp"
 #include "components/palpate/images/open_images.hpp"
 #include "libs/core/error.hpp"
 
@@ -39,60 +40,81 @@ Eigen::Isometry3d ToIsometry(const geometry::RigidTransform& T) {
   return Eigen::Translation3d(T.translation_m()) * T.rotation();
 }
 
-/// The model's shapes before anything is fitted.
-std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageSample>& samples,
-                                    const Eigen::Isometry3d& T_robot_camera,
-                                    robot::RobotModel* model) {
-  const calibration::ModelSnapshot kept(*model);
-  std::vector<ExpectedNodes> shapes;
-  for (const ImageSample& sample : samples) {
-    model->SetGravity(sample.frame.gravity_m_s2);
-    fem::StaticState state = model->RestState();
-    const fem::StaticResult solved = model->Solve(sample.frame.cables, sample.frame.loads, &state);
-    kept.RestoreGravity();
-    if (!solved.status.ok()) {
-      throw RunError(sample.frame.name + ": " + solved.status.message());
-    }
-    shapes.push_back({state.x_m.reshaped(3, state.x_m.size() / 3).cast<float>(), T_robot_camera});
+std::vector<ExpectedNodes> ExpectedAt(const std::vector<Eigen::VectorXd>& shapes_m,
+                                      const Eigen::Isometry3d& T_robot_camera) {
+  std::vector<ExpectedNodes> expected;
+  for (const Eigen::VectorXd& x_m : shapes_m) {
+    expected.push_back({x_m.reshaped(3, x_m.size() / 3).cast<float>(), T_robot_camera});
   }
-  return shapes;
+  return expected;
+}
+
+/// What the images are compared with where they do not fit.
+struct Comparison {
+  const std::vector<ImageSample>& samples;
+  rgbd::DepthNoise noise;
+  std::string pose_name;
+  Eigen::Isometry3d start;
+};
+
+/// Throws RunError with the reasons why the images do not fit; `otherwise` where they do fit the
+/// model as it is.
+[[noreturn]] void Refuse(const Comparison& compared, const std::string& otherwise,
+                         robot::RobotModel* model) {
+  // The search finds poses within three of these (CalibrateFromClouds).
+  constexpr double kRough_m = 0.017, kRough_rad = 0.116;
+  const calibration::DepthMisfit misfit =
+      FindImageMisfit(compared.samples, compared.noise,
+                      {.pose_name = compared.pose_name,
+                       .T_robot_camera = ToTransform(compared.start),
+                       .translation_sigma_m = kRough_m,
+                       .rotation_sigma_rad = kRough_rad},
+                      model);
+  throw RunError(misfit.fits ? otherwise : MisfitText(misfit.reasons, "nothing was written"));
 }
 
 /// Sets the clouds of all frames and the calibration from them.
-void Run(const std::vector<ImageSample>& samples, const perception::Config& perception,
+void Run(const Comparison& compared, const perception::Config& perception,
          const std::vector<ExpectedNodes>& expected, const Eigen::Isometry3d& start,
          const calibration::CloudSettings& clouds, robot::RobotModel* model,
          ImageCalibration* found) {
   std::vector<std::string> left_out;
-  found->frames = SeeClouds(samples, perception, model->body(), expected, &left_out);
+  found->frames = SeeClouds(compared.samples, perception, model->body(), expected, &left_out);
   if (found->frames.empty()) {
-    throw RunError("perception sees the robot in no image (" + left_out.front() +
-                   "). Where the images are sound, give a more accurate --camera-pose, or the "
-                   "robot's colour, --set perception.robot_color_rgb=[r, g, b]");
+    Refuse(compared,
+           "perception sees the robot in no image (" + left_out.front() +
+               "). Where the images are sound, give a more accurate --camera-pose, or the "
+               "robot's colour, --set perception.robot_color_rgb=[r, g, b]",
+           model);
   }
   for (const std::string& line : left_out) fmt::print(stderr, "excluded: {}\n", line);
   found->fit = calibration::CalibrateFromClouds(*model, found->frames, ToTransform(start), clouds);
-  RequireFit(found->fit.status);
+  if (!found->fit.status.ok()) Refuse(compared, FailureText(found->fit.status), model);
 }
 
 /// Noise, the facets of the mesh and a sound model's errors leave a chi-squared below the degrees
 /// of freedom. Twice these errors are another body than the model's: the pose is fitted to that,
 /// too.
-void RequirePossible(const ImageCalibration& found) {
+bool IsPossible(const calibration::JointCalibration& joint) {
   constexpr double kMostChiSquared = 4.0;
+  return joint.chi_squared <= kMostChiSquared * std::max(1, joint.degrees_of_freedom);
+}
+
+/// Of a robot of this size and shape that is nearly where it should be.
+std::string ImpossibleText(const ImageCalibration& found) {
   const calibration::JointCalibration& joint = found.fit.joint;
-  if (joint.chi_squared <= kMostChiSquared * std::max(1, joint.degrees_of_freedom)) return;
   std::size_t worst = 0;
   for (std::size_t f = 1; f < found.frames.size(); ++f) {
     if (found.fit.matches[f].rms_m > found.fit.matches[worst].rms_m) worst = f;
   }
-  throw RunError(fmt::format(
+  return fmt::format(
       "the images do not fit the model: chi-squared {:.3g} for {} degrees of freedom, worst in {} "
-      "({:.2f} mm RMS). Likely reasons: something touches the robot in a recording whose kind says "
-      "that nothing does; the cable inputs are not those of the images; another modulus or robot. "
-      "Name the recordings that are sound with --recording",
+      "({:.2f} mm RMS). Where most of the robot is agrees with size, unit and camera pose. "
+      "Likely reasons: something touches the robot in a recording whose kind says that nothing "
+      "does; the cable inputs are not those of the images; another modulus. Name the recordings "
+      "that are sound with --recording",
       joint.chi_squared, joint.degrees_of_freedom, found.frames[worst].name,
-      1e3 * found.fit.matches[worst].rms_m));
+      1e3 * found.fit.matches[worst].rms_m);
 }
 
 void Print(const ImageCalibration& found) {
@@ -137,17 +159,23 @@ ImageCalibration FitImages(const CalibrateOptions& options,
   found.picture = rgbd::PictureOf(sequences.front().camera.depth);
   clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(sequences);
   const calibration::ModelSnapshot kept(*model);
+  const Comparison compared{
+      .samples = samples,
+      .noise = perception::NoiseOf(perception),
+      .pose_name = options.camera_pose.empty() ? "the approximate camera pose" : "--camera-pose",
+      .start = start};
+  const std::vector<Eigen::VectorXd> shapes_m = ShapesOf(samples, model);
   // An approximate pose misplaces the predicted surface; a known robot colour does not depend on
   // it.
   const bool by_color = !perception.robot_color_rgb.empty();
-  Run(samples, perception,
-      by_color ? std::vector<ExpectedNodes>() : ShapesOf(samples, start, model), start, clouds,
-      model, &found);
+  Run(compared, perception, by_color ? std::vector<ExpectedNodes>() : ExpectedAt(shapes_m, start),
+      start, clouds, model, &found);
   kept.Restore();
   const Eigen::Isometry3d nearer = ToIsometry(found.fit.joint.T_robot_camera);
-  Run(samples, perception, ShapesOf(samples, nearer, model), nearer, clouds, model, &found);
-  RequirePossible(found);
-  return found;
+  Run(compared, perception, ExpectedAt(shapes_m, nearer), nearer, clouds, model, &found);
+  if (IsPossible(found.fit.joint)) return found;
+  kept.Restore();
+  Refuse(compared, ImpossibleText(found), model);
 }
 
 robot::CalibrationFile Describe(const ImageCalibration& found, const CalibrateOptions& options,

@@ -14,6 +14,7 @@
 #include "components/force_estimation/contact_site.hpp"
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
 #include "components/palpate/estimate/bias_frames.hpp"
+#include "components/palpate/estimate/image_check.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/replay_perception.hpp"
 #include "components/palpate/estimate/rest_check.hpp"
@@ -123,6 +124,7 @@ void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
     if (site.direction.isZero(0.0)) continue;
     Say("the direction of contact '" + site.name + "' is used with markers only");
   }
+  CheckImages(plan);
   if (options_.bias_frames != "recordings") return;
   BiasFrames found = FindBiasFrames({.experiment = experiment_,
                                      .plan = plan,
@@ -131,6 +133,20 @@ void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
                                     [this] { return MakeShapeReplay(); });
   shape_ = std::move(found.replay);
   for (const std::string& note : found.notes) Say(note);
+}
+
+void EstimateRun::CheckImages(const std::vector<PlannedRecording>& plan) const {
+  force_estimation::ShapeConfig shape = settings_.shape;
+  WidenPosePriors(experiment_, &shape);
+  RequireImagesFit(
+      {.experiment = experiment_,
+       .model = &model_,
+       .cable_input = ParseCableInput(options_.cable_input),
+       .noise = perception::NoiseOf(settings_.perception),
+       .pose_name = "T_robot_camera of " +
+                    (calibration_.pose ? options_.calibration.string() : "experiment.yaml"),
+       .pose_error = {.translation_m = shape.pose_prior_m, .rotation_rad = shape.pose_prior_rad}},
+      plan);
 }
 
 void EstimateRun::CalibrateMarkerOffsets(const std::vector<PlannedRecording>& plan) {

@@ -35,7 +35,8 @@ class EstimateRun {
               std::function<bool()> stop_requested = {});
   ~EstimateRun();
 
-  /// Processes the contact-free recordings, where one of `plan` is estimated from its shape.
+  /// Processes the contact-free recordings, where one of `plan` is estimated from its shape. Throws
+  /// RunError where images do not fit the robot (RequireImagesFit).
   void EstimateDepthBias(const std::vector<PlannedRecording>& plan);
   /// Chooses the recordings that give marker offsets, where `plan` has markers without a rest
   /// window.
@@ -49,6 +50,7 @@ class EstimateRun {
 
  private:
   ShapeReplay& Shape();
+  void CheckImages(const std::vector<PlannedRecording>& plan) const;
   RestCheck::Known RestCheckOf(const PlannedRecording& planned) const;
   ReplayCount Replay(const PlannedRecording& planned, const TakeEstimate& take);
   void PrintComparison(const RecordingComparison& comparison);

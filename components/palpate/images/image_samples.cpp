@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/calibrate/image_samples.hpp"
+#include "components/palpate/images/image_samples.hpp"
 
 #include <algorithm>
 
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "components/calibration/recording_phase.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "libs/core/error.hpp"
@@ -44,23 +45,47 @@ std::vector<ImageSample> SamplesOf(const experiment::Recording& recording,
                                    const experiment::RgbdSequence& images,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    std::size_t most) {
-  experiment::CheckCables(recording, model.CableNames());
-  const Eigen::Matrix3d R_base = experiment::BaseRotation(recording);
   const std::vector<std::size_t> chosen = Choose(recording, images, most);
   std::vector<ImageSample> samples;
   for (const std::size_t index : chosen) {
     const double t_s = NsToSeconds(images.frames[index].t_ns);
-    samples.push_back(
-        {.images = &images,
-         .index = index,
-         .frame = {.name = chosen.size() == 1 ? recording.name
-                                              : recording.name + " at " + FormatNumber(t_s) + " s",
-                   .cloud = {},
-                   .cables = calibration::CablesAt(recording, model, preferred, t_s),
-                   .loads = calibration::LoadsAt(recording, model, t_s),
-                   .gravity_m_s2 = R_base.transpose() * model.gravity_m_s2()}});
+    const std::string name =
+        chosen.size() == 1 ? recording.name : recording.name + " at " + FormatNumber(t_s) + " s";
+    samples.push_back(SampleAt(recording, images, index, name, model, preferred));
   }
   return samples;
+}
+
+ImageSample SampleAt(const experiment::Recording& recording, const experiment::RgbdSequence& images,
+                     std::size_t index, const std::string& name, const robot::RobotModel& model,
+                     robot::CableInput preferred) {
+  experiment::CheckCables(recording, model.CableNames());
+  const double t_s = NsToSeconds(images.frames[index].t_ns);
+  return {.images = &images,
+          .index = index,
+          .frame = {.name = name,
+                    .cloud = {},
+                    .cables = calibration::CablesAt(recording, model, preferred, t_s),
+                    .loads = calibration::LoadsAt(recording, model, t_s),
+                    .gravity_m_s2 =
+                        experiment::BaseRotation(recording).transpose() * model.gravity_m_s2()}};
+}
+
+std::vector<Eigen::VectorXd> ShapesOf(const std::vector<ImageSample>& samples,
+                                      robot::RobotModel* model) {
+  const calibration::ModelSnapshot kept(*model);
+  std::vector<Eigen::VectorXd> shapes_m;
+  for (const ImageSample& sample : samples) {
+    model->SetGravity(sample.frame.gravity_m_s2);
+    fem::StaticState state = model->RestState();
+    const fem::StaticResult solved = model->Solve(sample.frame.cables, sample.frame.loads, &state);
+    kept.RestoreGravity();
+    if (!solved.status.ok()) {
+      throw RunError(sample.frame.name + ": " + solved.status.message());
+    }
+    shapes_m.push_back(state.x_m);
+  }
+  return shapes_m;
 }
 
 std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageSample>& samples,

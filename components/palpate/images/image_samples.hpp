@@ -30,6 +30,17 @@ std::vector<ImageSample> SamplesOf(const experiment::Recording& recording,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    std::size_t most = 6);
 
+/// The frame `index` of `images`, named `name`, and what acted then. `images` must outlive it.
+/// Throws InputError where a load lies off the body.
+ImageSample SampleAt(const experiment::Recording& recording, const experiment::RgbdSequence& images,
+                     std::size_t index, const std::string& name, const robot::RobotModel& model,
+                     robot::CableInput preferred);
+
+/// [3n] nodes of the model under the samples' inputs. The model is unchanged. Throws RunError where
+/// there is no equilibrium.
+std::vector<Eigen::VectorXd> ShapesOf(const std::vector<ImageSample>& samples,
+                                      robot::RobotModel* model);
+
 /// Point clouds of the robot in these frames; `expected`: predicted nodes for each, or none. Frames
 /// in which the robot is not found are excluded, with a line for each in `left_out`.
 std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageSample>& samples,

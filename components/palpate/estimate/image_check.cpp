@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/image_check.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "components/palpate/images/image_misfit.hpp"
+#include "components/palpate/images/open_images.hpp"
+#include "libs/core/error.hpp"
+#include "libs/geometry/rigid_transform.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using experiment::Recording;
+
+void RequireFit(const ImageCheck& check, const Recording& recording, bool may_be_touched) {
+  const auto pose = experiment::RobotFromCamera(check.experiment, recording);
+  if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return;
+  const auto& T_robot_camera = std::get<Eigen::Isometry3d>(pose);
+  const experiment::RgbdSequence images = OpenImages(recording);
+  const calibration::DepthMisfitRequest request{
+      .pose_name = recording.T_robot_camera ? "T_robot_camera of recording.yaml" : check.pose_name,
+      .T_robot_camera = {Eigen::Quaterniond(T_robot_camera.linear()), T_robot_camera.translation()},
+      .translation_sigma_m = check.pose_error.translation_m,
+      .rotation_sigma_rad = check.pose_error.rotation_rad,
+      .may_be_touched = may_be_touched};
+  const calibration::DepthMisfit misfit = FindImageMisfit(
+      {SampleAt(recording, images, 0, recording.name, *check.model, check.cable_input)},
+      check.noise, request, check.model);
+  if (misfit.fits) return;
+  throw RunError(recording.name + ": " + MisfitText(misfit.reasons, "no forces were estimated"));
+}
+
+}  // namespace
+
+void RequireImagesFit(const ImageCheck& check, const std::vector<PlannedRecording>& plan) {
+  const std::vector<const Recording*> contact_free = BiasRecordings(check.experiment);
+  if (!contact_free.empty()) RequireFit(check, *contact_free.front(), /*may_be_touched=*/false);
+  for (const PlannedRecording& planned : plan) {
+    const bool is_done = !contact_free.empty() && planned.recording == contact_free.front();
+    if (planned.from != EstimateFrom::kShape || is_done) continue;
+    RequireFit(check, *planned.recording, /*may_be_touched=*/true);
+  }
+}
+
+}  // namespace palpate::command
