@@ -46,6 +46,13 @@ class CalibrateImages : public LookTest {
            Eigen::AngleAxisd(turn_rad, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()) *
            Eigen::Translation3d(-middle_m) * T;
   }
+  void ExpectReason(const std::string& first) const {
+    const std::string said = Refusal<RunError>();
+    EXPECT_THAT(said, HasSubstr("the images do not fit the robot: "));
+    EXPECT_THAT(said, testing::ContainsRegex(
+                          "nothing was written. Likely reasons, the best first:\n  1. " + first));
+    EXPECT_FALSE(std::filesystem::exists(options_.out));
+  }
   static std::string Text(const Eigen::Isometry3d& pose) { return geometry::FormatPose(pose); }
 };
 
@@ -93,9 +100,26 @@ TEST_F(CalibrateImages, ARoughPoseIsNeeded) {
 TEST_F(CalibrateImages, APoseThatIsTooFarOffIsRefused) {
   Simulate();
   options_.camera_pose = Text(PoseOffBy(1.2, 0.1));
-  EXPECT_THAT(Refusal<RunError>(), testing::AnyOf(HasSubstr("perception sees the robot in no"),
-                                                  HasSubstr("not_converged")));
-  EXPECT_FALSE(std::filesystem::exists(options_.out));
+  ExpectReason("pose: --camera-pose ");
+}
+
+TEST_F(CalibrateImages, DepthsOfAnotherUnitAreNamed) {
+  Simulate();
+  options_.camera_pose = Text(PoseOffBy(0.05, 0.01));
+  for (const char* name : {"a_hold", "b_hold"}) {
+    const auto file = std::string("exp/recordings/") + name + "/camera.yaml";
+    std::string text = ReadFile(folder_ / file);
+    Replace("unit_m: 1e-04", "unit_m: 0.001", &text);
+    folder_.Write(file, text);
+  }
+  ExpectReason("unit of depth: the depths are 10 times too large: divide unit_m");
+}
+
+TEST_F(CalibrateImages, AnotherRobotIsNamed) {
+  Simulate("rest_between_s: 0.5\nrecordings:\n  - {name: a_rest, kind: rest, duration_s: 0.1}\n");
+  options_.camera_pose = Text(PoseOffBy(0.0, 0.0));
+  options_.robot = "rod";
+  ExpectReason("robot: at no pose within .* of rod is where the image has it");
 }
 
 TEST_F(CalibrateImages, RecordingsInWhichAnythingMayHappenServeNot) {

@@ -5,12 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/simulate_verb.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/experiment/csv_table.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/geometry/pose_text.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 
 namespace palpate::command {
@@ -151,6 +157,93 @@ TEST_F(EstimateImages, WithoutACameraPoseNothingIsKnownAndTheRunHasFailed) {
   EXPECT_EQ(Estimate(options_), 1);
   EXPECT_EQ(LastOf("a_rest").status, "no_calibration");
   EXPECT_EQ(LastOf("b_push").status, "no_calibration");
+}
+
+// One image of a robot at rest, and mistakes in what is said of it.
+class EstimateMisfits : public EstimateImages {
+ protected:
+  EstimateMisfits() {
+    std::string scenario = kPush.substr(0, kPush.find("  - {name: a_rest"));
+    Simulate(true, scenario + "  - {name: a_rest, kind: rest, duration_s: 0.1}\n");
+  }
+
+  std::filesystem::path ExperimentFile() const { return folder_ / "exp/experiment.yaml"; }
+  Eigen::Isometry3d TruePose() const {
+    return *experiment::ReadExperiment(folder_ / "exp", app::LoadYaml).T_robot_camera;
+  }
+  void SayPose(const Eigen::Isometry3d& T_robot_camera) const {
+    const std::string text = ReadFile(ExperimentFile());
+    const auto begin = text.find("T_robot_camera: ");
+    const auto end = text.find('\n', begin);
+    folder_.Write("exp/experiment.yaml",
+                  text.substr(0, begin) +
+                      "T_robot_camera: " + geometry::FormatPose(T_robot_camera) + text.substr(end));
+  }
+  void SayOfCamera(const std::string& old, const std::string& by) const {
+    const std::string file = "exp/recordings/a_rest/camera.yaml";
+    std::string text = ReadFile(folder_ / file);
+    ASSERT_NE(text.find(old), std::string::npos) << text;
+    for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size())) {
+      text.replace(at, old.size(), by);
+    }
+    folder_.Write(file, text);
+  }
+  void ExpectReason(const std::string& first) const {
+    std::string said;
+    try {
+      Estimate(options_);
+      ADD_FAILURE() << "forces of images that do not fit";
+    } catch (const RunError& error) {
+      said = error.what();
+    }
+    EXPECT_THAT(said, testing::HasSubstr("a_rest: the images do not fit the robot: "));
+    EXPECT_THAT(said, testing::ContainsRegex("no forces were estimated. Likely reasons, the best "
+                                             "first:\n  1. " +
+                                             first));
+    EXPECT_FALSE(std::filesystem::exists(options_.out));
+  }
+};
+
+TEST_F(EstimateMisfits, ASoundExperimentHasNone) { EXPECT_EQ(Estimate(options_), 0); }
+
+TEST_F(EstimateMisfits, APoseThatIsOffIsNamedWithHowFar) {
+  const Eigen::Vector3d middle_m(0.0, 0.0, 0.065);
+  SayPose(Eigen::Translation3d(middle_m + Eigen::Vector3d(0.026, 0.0, -0.034)) *
+          Eigen::AngleAxisd(0.21, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()) *
+          Eigen::Translation3d(-middle_m) * TruePose());
+  ExpectReason(
+      "pose: T_robot_camera of experiment.yaml puts the robot 4[0-9].[0-9] mm and 1[12].[0-9] "
+      "degrees off");
+}
+
+TEST_F(EstimateMisfits, APoseThatIsForgottenIsNamed) {
+  SayPose(Eigen::Isometry3d::Identity());
+  ExpectReason("pose: T_robot_camera of experiment.yaml ");
+}
+
+TEST_F(EstimateMisfits, APoseThatIsInvertedIsNamed) {
+  SayPose(TruePose().inverse());
+  ExpectReason("pose: .*: it is the inverse, T_camera_robot; ");
+}
+
+TEST_F(EstimateMisfits, DepthsOfAnotherUnitAreNamed) {
+  SayOfCamera("unit_m: 1e-04", "unit_m: 0.001");
+  ExpectReason("unit of depth: the depths are 10 times too large: divide unit_m");
+}
+
+TEST_F(EstimateMisfits, IntrinsicsOfAnotherResolutionAreNamed) {
+  for (const auto& [old, by] : {std::pair{"x_px: 212.5", "x_px: 425"},
+                                {"y_px: 212.5", "y_px: 425"},
+                                {"211.5", "423.5"},
+                                {"119.5", "239.5"}}) {
+    SayOfCamera(old, by);
+  }
+  ExpectReason("intrinsics: .* are those of an image 2 times as wide as its 424 pixels");
+}
+
+TEST_F(EstimateMisfits, AnotherRobotIsNamed) {
+  options_.robot = "rod";
+  ExpectReason("robot: at no pose within .* of rod is where the image has it");
 }
 
 }  // namespace
