@@ -24,7 +24,7 @@ struct DepthAgreementTuning {
   double sigmas = 3.0;        ///< distance from the surface that agrees
   double depth_bias = 0.005;  ///< standard deviation of a depth camera's bias, share of z
   double grazing = 0.2;       ///< cosine below which a surface is not compared
-  int rim_px = 2;             ///< distance beyond the outline at which the surface must end
+  int rim_px = 3;             ///< distance beyond the outline at which the surface must end
   double nearer_weight = 0.5;
   double least_in_view = 0.5;  ///< share of the robot in the image that is no misfit yet
 };
@@ -90,8 +90,10 @@ Eigen::VectorXd DepthComparison::ShapeOf(const Mend& mend) const {
   return mend.body * (rest_m_ + mend.motion * (sight_.x_m - rest_m_));
 }
 
-double DepthComparison::Tolerance_m(double z_m, double motion_m) const {
-  const double noise_m = rgbd::DepthSigma_m(sight_.camera, sight_.noise, z_m);
+double DepthComparison::Tolerance_m(double z_m, double motion_m, const Mend& mend) const {
+  rgbd::RgbdCamera camera = sight_.camera;
+  camera.depth_unit_m *= mend.depth;
+  const double noise_m = rgbd::DepthSigma_m(camera, sight_.noise, z_m);
   const double bias_m = kAgreementTuning.depth_bias * z_m;
   return kAgreementTuning.sigmas *
          std::sqrt(noise_m * noise_m + bias_m * bias_m + ModelVariance_m2(extent_m_, motion_m));
@@ -129,7 +131,7 @@ DepthAgreement DepthComparison::Compare(const geometry::RigidTransform& T_robot_
       const double cosine = std::abs(normal.dot(a)) / a.norm();
       if (cosine < kAgreementTuning.grazing) continue;
       const double expected_m = static_cast<double>(view.Z_m(u, v));
-      const double tolerance_m = Tolerance_m(expected_m, mend.motion * motion_m_[corners[0]]);
+      const double tolerance_m = Tolerance_m(expected_m, mend.motion * motion_m_[corners[0]], mend);
       const double beyond_m = cosine * (measured_m - expected_m);
       if (std::abs(beyond_m) > tolerance_m) {
         (beyond_m > 0.0 ? agreement.farther : agreement.nearer) += 1.0;

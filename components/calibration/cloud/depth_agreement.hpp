@@ -66,7 +66,7 @@ class DepthComparison {
 
  private:
   rgbd::CameraModel LensOf(const Mend& mend) const;
-  double Tolerance_m(double z_m, double motion_m) const;
+  double Tolerance_m(double z_m, double motion_m, const Mend& mend) const;
 
   const DepthSight& sight_;
   const Eigen::VectorXd& rest_m_;

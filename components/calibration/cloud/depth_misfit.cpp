@@ -25,7 +25,8 @@ struct DepthMisfitTuning {
   double depth_bias = 0.005;   ///< share of the distance by which a depth camera moves the robot
   double hopeless = 0.97;      ///< misfit before a search, above which none is made
   double other_factor = 1.15;  ///< ratio of lengths that no sound pose or size is off by
-  double near_round = 0.05;    ///< relative difference from a round factor
+  double round_within = 0.3;   ///< of a round factor, where it is tried as well
+  double near_round = 0.05;    ///< misfit by which a round factor may be worse
   double size_step = 1.1;      ///< ratio of neighbouring sizes: half a step moves ends by 5 %
   int size_steps = 5;          ///< in each direction
   double same_pose = 1e-6;     ///< norm of the difference from the identity
@@ -61,7 +62,7 @@ struct Convention {
 class DepthSearch {
  public:
   DepthSearch(const robot::RobotModel& model, const std::vector<DepthSight>& sights,
-         const DepthMisfitRequest& request)
+              const DepthMisfitRequest& request)
       : model_(model),
         request_(request),
         extent_m_(ExtentOf(model.RestState().x_m)),
@@ -87,6 +88,7 @@ class DepthSearch {
   std::vector<Convention> Conventions() const;
   void Take(Reason kind, double misfit, const std::string& text);
   bool Explains(double misfit) const;
+  std::string PoseName() const;
   void TakePose(const Place& place, const std::string& convention);
   void TryDepthUnit();
   void TryBodyUnit();
@@ -199,20 +201,23 @@ bool DepthSearch::Explains(double misfit) const {
 }
 
 void DepthSearch::Take(Reason kind, double misfit, const std::string& text) {
-  const std::string then =
-      FormatReason(" (then %.0f %% of the robot's visible surface is where the image has it)",
-                   100.0 * (1.0 - misfit));
+  const std::string then = FormatReason(" (misfit then %.0f %%)", 100.0 * misfit);
   result_.reasons.push_back({kind, text + then, misfit});
 }
 
-void DepthSearch::TakePose(const Place& place, const std::string& convention) {
+/// With what catches the eye.
+std::string DepthSearch::PoseName() const {
   const RigidTransform& given = request_.T_robot_camera;
-  std::string text = "pose: " + request_.pose_name;
-  const bool is_identity =
-      given.translation_m().norm() + Eigen::AngleAxisd(given.rotation()).angle() <
-      kDepthMisfitTuning.same_pose;
-  if (is_identity) text += " is the identity: was the camera's pose forgotten? It";
-  text += " puts the robot " + DifferenceOf(given, place.T_robot_camera, middle_camera_m_).Text();
+  const double from_identity =
+      given.translation_m().norm() + Eigen::AngleAxisd(given.rotation()).angle();
+  if (from_identity > kDepthMisfitTuning.same_pose) return request_.pose_name;
+  return request_.pose_name + " is the identity: was the camera's pose forgotten? It";
+}
+
+void DepthSearch::TakePose(const Place& place, const std::string& convention) {
+  std::string text =
+      "pose: " + PoseName() + " puts the robot " +
+      DifferenceOf(request_.T_robot_camera, place.T_robot_camera, middle_camera_m_).Text();
   if (!convention.empty()) text += ": " + convention;
   Take(Reason::kPose, place.misfit, text + "; calibrate the camera, or correct its pose");
 }
@@ -222,7 +227,7 @@ std::vector<double> FactorsNear(double factor) {
   std::vector<double> factors = {factor};
   for (const double round : {2.0, 2.5, 4.0, 5.0, 10.0, 25.4, 100.0, 1000.0}) {
     for (const double value : {round, 1.0 / round}) {
-      if (std::abs(factor / value - 1.0) < kDepthMisfitTuning.near_round * 6.0)
+      if (std::abs(factor / value - 1.0) < kDepthMisfitTuning.round_within)
         factors.push_back(value);
     }
   }
@@ -240,7 +245,7 @@ void DepthSearch::TryDepthUnit() {
   double best_factor = 1.0;
   for (const double factor : FactorsNear(1.0 / ratio)) {
     const Place place = FitNear({.depth = factor});
-    if (place.misfit >= best.misfit) continue;
+    if (place.misfit >= best.misfit + kDepthMisfitTuning.near_round) continue;
     best = place;
     best_factor = factor;
   }
@@ -332,17 +337,16 @@ void DepthSearch::SayRobot(const Place& best) {
          FormatReason(
              "pose: %s puts %.0f %% of the robot out of the image: calibrate the camera, or "
              "correct its pose",
-             request_.pose_name.c_str(), 100.0 * (1.0 - in_view)),
+             PoseName().c_str(), 100.0 * (1.0 - in_view)),
          result_.residual});
     return;
   }
   result_.reasons.push_back(
       {Reason::kRobot,
-       FormatReason("robot: at no pose within %.0f mm, and with no other unit, size or resolution, "
-                    "more than %.0f %% of %s is where the image has it: give the file of the robot "
-                    "that the images show, or a pose that is nearer",
-                    1e3 * settings_.farthest_m, 100.0 * (1.0 - best.misfit),
-                    model_.body().name.c_str()),
+       FormatReason("robot: no pose within %.0f mm, and no other unit, size or resolution, brings "
+                    "the misfit of %s below %.0f %%: give the file of the robot that the images "
+                    "show, or a pose that is nearer",
+                    1e3 * settings_.farthest_m, model_.body().name.c_str(), 100.0 * best.misfit),
        best.misfit});
 }
 

@@ -26,7 +26,7 @@ constexpr BiasFramesTuning kBiasFramesTuning;
 std::string NameOutlier(const ShapeReplay::BiasRecording& outlier, bool is_alone) {
   return fmt::format(
       "{}: not used for the depth bias: its shape is {:.2g} mm RMS off {}. Something touches the "
-      "robot, or its commands are not what they were",
+      "robot, its commands are not what they were, or the camera pose is off by some millimetres",
       outlier.recording->name, 1e3 * outlier.verdict.difference_m,
       is_alone ? "the model by more than the camera's errors"
                : "that of the other contact-free recordings");

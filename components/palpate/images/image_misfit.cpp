@@ -27,9 +27,8 @@ calibration::DepthMisfit FindImageMisfit(const std::vector<ImageSample>& samples
 
 std::string MisfitText(const calibration::MisfitReasons& reasons, const std::string& consequence) {
   return fmt::format(
-      "the images do not fit the robot: {:.0f} % of its visible surface is where the image has it; "
-      "{}. Likely reasons, the best first:\n{}",
-      100.0 * (1.0 - reasons.residual), consequence, reasons.Text());
+      "the images do not fit the robot (misfit {:.0f} %); {}. Likely reasons, the best first:\n{}",
+      100.0 * reasons.residual, consequence, reasons.Text());
 }
 
 }  // namespace palpate::command

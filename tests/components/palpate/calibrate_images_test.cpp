@@ -48,7 +48,7 @@ class CalibrateImages : public LookTest {
   }
   void ExpectReason(const std::string& first) const {
     const std::string said = Refusal<RunError>();
-    EXPECT_THAT(said, HasSubstr("the images do not fit the robot: "));
+    EXPECT_THAT(said, HasSubstr("the images do not fit the robot (misfit "));
     EXPECT_THAT(said, testing::ContainsRegex(
                           "nothing was written. Likely reasons, the best first:\n  1. " + first));
     EXPECT_FALSE(std::filesystem::exists(options_.out));
@@ -119,7 +119,7 @@ TEST_F(CalibrateImages, AnotherRobotIsNamed) {
   Simulate("rest_between_s: 0.5\nrecordings:\n  - {name: a_rest, kind: rest, duration_s: 0.1}\n");
   options_.camera_pose = Text(PoseOffBy(0.0, 0.0));
   options_.robot = "rod";
-  ExpectReason("robot: at no pose within .* of rod is where the image has it");
+  ExpectReason("robot: no pose within .* brings the misfit of rod below");
 }
 
 TEST_F(CalibrateImages, RecordingsInWhichAnythingMayHappenServeNot) {

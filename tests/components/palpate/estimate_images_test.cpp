@@ -196,7 +196,7 @@ class EstimateMisfits : public EstimateImages {
     } catch (const RunError& error) {
       said = error.what();
     }
-    EXPECT_THAT(said, testing::HasSubstr("a_rest: the images do not fit the robot: "));
+    EXPECT_THAT(said, testing::HasSubstr("a_rest: the images do not fit the robot (misfit "));
     EXPECT_THAT(said, testing::ContainsRegex("no forces were estimated. Likely reasons, the best "
                                              "first:\n  1. " +
                                              first));
@@ -218,7 +218,8 @@ TEST_F(EstimateMisfits, APoseThatIsOffIsNamedWithHowFar) {
 
 TEST_F(EstimateMisfits, APoseThatIsForgottenIsNamed) {
   SayPose(Eigen::Isometry3d::Identity());
-  ExpectReason("pose: T_robot_camera of experiment.yaml ");
+  ExpectReason(
+      "pose: T_robot_camera of experiment.yaml is the identity: was the camera's pose forgotten");
 }
 
 TEST_F(EstimateMisfits, APoseThatIsInvertedIsNamed) {
@@ -243,7 +244,7 @@ TEST_F(EstimateMisfits, IntrinsicsOfAnotherResolutionAreNamed) {
 
 TEST_F(EstimateMisfits, AnotherRobotIsNamed) {
   options_.robot = "rod";
-  ExpectReason("robot: at no pose within .* of rod is where the image has it");
+  ExpectReason("robot: no pose within .* brings the misfit of rod below");
 }
 
 }  // namespace
