@@ -18,6 +18,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
+#include "libs/robot/history_state.hpp"
 
 namespace palpate::force_estimation {
 
@@ -59,6 +60,7 @@ class MarkerForceEstimator::Impl {
         clock_(std::move(clock)),
         sites_(ParseContactSites(config.contacts)),
         offsets_(model),
+        history_(model),
         fitter_(model, config),
         free_state_(model.RestState()) {
     if (model.body().markers.empty()) throw InputError("the robot file names no markers");
@@ -83,6 +85,7 @@ class MarkerForceEstimator::Impl {
     estimate_.frame_error = 0.0;
     published_ = false;
     estimate_.status = Process(frame);
+    if (published_) CommitHistory();
     if (!published_) Withdraw();
     return estimate_;
   }
@@ -100,6 +103,8 @@ class MarkerForceEstimator::Impl {
   bool Searches() const { return sites_.empty(); }
   bool StandsOnContact(const robot::BodyMarker& marker) const;
   Status Process(const MarkerFrame& frame);
+  void RememberReference(const MarkerFrame& frame);
+  void CommitHistory();
   Status CheckFrame(const MarkerFrame& frame) const;
   void SetPoseColumns(const MarkerFrame& frame);
   Status SetTargets(const MarkerFrame& frame);
@@ -127,6 +132,7 @@ class MarkerForceEstimator::Impl {
   std::vector<FitSite> fit_sites_;
   std::vector<double> marker_weight_;
   MarkerOffsetCalibration offsets_;
+  robot::HistoryState history_;
   ForceFitter fitter_;
   std::optional<ContactSearch> search_;  ///< where the settings give no contact
   RowTargets targets_;
@@ -199,12 +205,35 @@ Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   if (frame.reference != ReferenceShape::kNone) {
     offsets_.Add(frame);
+    RememberReference(frame);
     return {StatusCode::kNoCalibration, "reference frame: marker offsets are being set"};
   }
   if (Status status = offsets_.Finish(); !status.ok()) return status;
   if (Status status = FollowLoads(frame); !status.ok()) return status;
   if (Status status = SetTargets(frame); !status.ok()) return status;
-  return Searches() ? SearchSites(frame) : FitGivenSites(frame);
+  if (!history_.active()) return Searches() ? SearchSites(frame) : FitGivenSites(frame);
+  MarkerFrame remembered = frame;
+  remembered.cables = history_.Prepare(frame.t_s, frame.cables);
+  fitter_.ForgetFactor();
+  free_inputs_.reset();
+  return Searches() ? SearchSites(remembered) : FitGivenSites(remembered);
+}
+
+/// A body that is held in its undeformed shape relaxes there. One that is free is where its first
+/// frame finds it.
+void MarkerForceEstimator::Impl::RememberReference(const MarkerFrame& frame) {
+  if (!history_.active()) return;
+  history_.Prepare(frame.t_s, frame.cables);
+  if (frame.reference != ReferenceShape::kUndeformed) return;
+  history_.Commit(model_.elastic_body().rest_m(), Eigen::VectorXd::Zero(model_.CableCount()));
+}
+
+void MarkerForceEstimator::Impl::CommitHistory() {
+  if (!history_.active()) return;
+  Eigen::VectorXd tension_N(model_.CableCount());
+  for (Eigen::Index c = 0; c < tension_N.size(); ++c)
+    tension_N[c] = estimate_.cables[At(c)].tension_N;
+  history_.Commit(estimate_.x_m, tension_N);
 }
 
 Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "libs/core/index.hpp"
+#include "libs/robot/play_operator.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -119,11 +120,7 @@ void ActuatorChain::Propose(double t_s, const Eigen::VectorXd& command_m) {
     proposed_.followed_m[c] =
         Follow(now_.followed_m[c], now_.delayed_m[c], proposed_.delayed_m[c], h_s);
     const double geared_m = Geared(c, proposed_.followed_m[c]);
-    const double before_m = now_.pulled_in_m[c];
-    const double half_m = 0.5 * play_m_[c];
-    proposed_.pulled_in_m[c] = std::isnan(before_m) || std::isnan(geared_m)
-                                   ? geared_m
-                                   : std::clamp(before_m, geared_m - half_m, geared_m + half_m);
+    proposed_.pulled_in_m[c] = robot::Play(now_.pulled_in_m[c], geared_m, play_m_[c]);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "components/virtual_robot/external_loads.hpp"
 #include "components/virtual_robot/softening.hpp"
 #include "components/virtual_robot/step_solver.hpp"
+#include "libs/fem/viscosity.hpp"
 #include "libs/scenario/scenario.hpp"
 
 namespace palpate::virtual_robot {
@@ -76,7 +77,7 @@ class Bench {
   fem::ElasticBody elastic_;
   fem::NodeMatrix mass_;
   ExternalLoads loads_;
-  Viscosity viscosity_;
+  fem::Viscosity viscosity_;
   Softening softening_;
   CompliantBase base_;
   ActuatorChain actuators_;

@@ -8,6 +8,7 @@
 
 #include "components/virtual_robot/effects.hpp"
 #include "libs/fem/elastic_body.hpp"
+#include "libs/fem/mullins.hpp"
 #include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::virtual_robot {
@@ -40,16 +41,11 @@ class Softening {
   void Update(fem::ElasticBody* body, const Eigen::VectorXd& x_m, double since_s);
 
  private:
-  struct Mullins {
-    double r;
-    double m_J_m3;
-  };
-
   double Damage(const fem::ElasticBody& body, const Eigen::VectorXd& x_m,
                 Eigen::VectorXd* largest_J_m3);
   void SetFactors(fem::ElasticBody* body);
 
-  std::optional<Mullins> mullins_;
+  std::optional<fem::MullinsLaw> mullins_;
   double temperature_change_ = 0.0;  ///< of the moduli, relative, at the end
   double duration_s_;
   double warmth_ = 1.0;           ///< factor of temperature now

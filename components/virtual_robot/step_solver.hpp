@@ -12,7 +12,6 @@
 #include "components/virtual_robot/contact_surface.hpp"
 #include "components/virtual_robot/time_scheme.hpp"
 #include "components/virtual_robot/virtual_robot.hpp"
-#include "components/virtual_robot/viscosity.hpp"
 #include "libs/core/status.hpp"
 #include "libs/core/thread_team.hpp"
 #include "libs/fem/elastic_body.hpp"
@@ -20,6 +19,7 @@
 #include "libs/fem/node_matrix.hpp"
 #include "libs/fem/sparse/sparse_solver.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
+#include "libs/fem/viscosity.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -27,7 +27,7 @@ namespace palpate::virtual_robot {
 struct Forces {
   fem::ElasticBody& elastic;
   fem::NodeMatrix& mass;
-  Viscosity& viscosity;
+  fem::Viscosity& viscosity;
   CableSystem& cables;
   const ContactSurface& surface;
   std::vector<Contact>& contacts;

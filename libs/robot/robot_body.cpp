@@ -248,6 +248,7 @@ void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator
   for (const CableSettings& settings : robot.cables) {
     BodyCable cable{settings.name,          settings.path_m.col(0),        {},
                     settings.max_tension_N, settings.friction_coefficient, settings.guide_radius_m};
+    cable.play_m = settings.play_m;
     for (Eigen::Index k = 1; k < settings.path_m.cols(); ++k) {
       cable.eyelets.push_back(placer.Eyelet(settings, k));
     }
@@ -278,6 +279,8 @@ RobotBody BuildRobotBody(const RobotDescription& robot) {
   body.mesh = read.mesh;
   body.fixed = HoldNodes(robot, read, &body.notes);
   AssignMaterials(robot, &body);
+  body.creep = robot.creep;
+  body.softening = robot.softening;
   NoteLocking(robot, &body.notes);
   body.node_mass_kg = NodeMass_kg(robot.mass, read);
   body.gravity_m_s2 = robot.gravity_m_s2;

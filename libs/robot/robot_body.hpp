@@ -4,12 +4,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "libs/fem/boundary_surface.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/material.hpp"
+#include "libs/fem/mullins.hpp"
+#include "libs/fem/prony_term.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -25,6 +28,7 @@ struct BodyCable {
   /// [eyelets] how far each sits off its place in the robot file, of a robot of scale 1; empty: not
   /// at all (eyelets.hpp).
   std::vector<Eigen::Vector3d> eyelets_moved_m = {};
+  double play_m = 0.0;  ///< full width, of the actuator
 };
 
 struct BodyMarker {
@@ -52,6 +56,10 @@ struct RobotBody {
   double nominal_poissons_ratio = 0.0;
   std::vector<int> material_of_cell;      ///< [elements] index into materials
   std::vector<std::string> region_names;  ///< in the order of the robot file
+  /// What all materials remember (history_state.hpp); static equilibria are of a relaxed body that
+  /// was not strained before.
+  std::vector<fem::PronyTerm> creep;
+  std::optional<fem::MullinsLaw> softening;
 
   /// [3 x n] directions that are held; nodes that no element uses are held too.
   Eigen::Matrix<bool, 3, Eigen::Dynamic> fixed;

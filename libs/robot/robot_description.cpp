@@ -125,18 +125,40 @@ void ReadYeohRatios(MapReader* map, fem::Material* material) {
   }
 }
 
-fem::Material ReadMaterial(const ConfigNode& node, fem::ElementType element) {
+fem::PronyTerm ReadCreep(const ConfigNode& node) {
+  MapReader map(node, CreepKeys());
+  fem::PronyTerm term;
+  map.Read("share", &term.g);
+  map.Read("time_s", &term.tau_s);
+  map.Finish();
+  return term;
+}
+
+fem::MullinsLaw ReadSoftening(const ConfigNode& node) {
+  MapReader map(node, SofteningKeys());
+  fem::MullinsLaw law;
+  map.Read("r", &law.r);
+  map.Read("m_J_m3", &law.m_J_m3);
+  map.Finish();
+  return law;
+}
+
+void ReadMaterial(const ConfigNode& node, RobotDescription* robot) {
   MapReader map(node, MaterialKeys());
-  fem::Material material;
+  fem::Material& material = robot->material;
   std::string model;
   map.Read("model", &model);
   fem::ParseMaterialModel(model, &material.model);
   map.Read("youngs_modulus_Pa", &material.youngs_modulus_Pa);
   material.poissons_ratio = ReadPoissonsRatio(map.Require("poissons_ratio"));
-  material.volumetric = ReadVolumetric(&map, element, material);
+  material.volumetric = ReadVolumetric(&map, robot->element, material);
   ReadYeohRatios(&map, &material);
+  if (const ConfigNode* terms = map.Optional("creep")) {
+    for (const ConfigNode& item : Items(*terms, "creep terms"))
+      robot->creep.push_back(ReadCreep(item));
+  }
+  if (const ConfigNode* law = map.Optional("softening")) robot->softening = ReadSoftening(*law);
   map.Finish();
-  return material;
 }
 
 MassSettings ReadMass(const ConfigNode& node) {
@@ -194,6 +216,7 @@ CableSettings ReadCable(const ConfigNode& node, std::set<std::string>* names) {
   map.Read("max_tension_N", &cable.max_tension_N);
   map.Read("guide_radius_m", &cable.guide_radius_m);
   map.Read("friction_coefficient", &cable.friction_coefficient);
+  map.Read("play_m", &cable.play_m);
   map.Finish();
   return cable;
 }
@@ -286,7 +309,7 @@ RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLo
   std::string element;
   map.Read("element", &element);
   if (element == "tet4") robot.element = fem::ElementType::kTet4;
-  robot.material = ReadMaterial(map.Require("material"), robot.element);
+  ReadMaterial(map.Require("material"), &robot);
   robot.mass = ReadMass(map.Require("mass"));
   map.Read("gravity_m_s2", &robot.gravity_m_s2);
   ReadFixed(map.Require("fixed"), &robot);

@@ -12,6 +12,8 @@
 #include "libs/core/config_node.hpp"
 #include "libs/core/number_rule.hpp"
 #include "libs/fem/material.hpp"
+#include "libs/fem/mullins.hpp"
+#include "libs/fem/prony_term.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/geometry/box.hpp"
 
@@ -43,9 +45,10 @@ struct CableSettings {
   Eigen::Matrix3Xd path_m;         ///< [3 x >=2], robot frame, at rest
   double max_tension_N = 1e3;      ///< > 0
   double guide_radius_m = 0.0015;  ///< >= 0; 0: barycentric points
-  /// >= 0; of the cable in its eyelets while the actuator pulls it in (cable_friction.hpp).
+  /// >= 0; of the cable in its eyelets (cable_friction.hpp).
   double friction_coefficient = 0.0;
   SourceLocation where;
+  double play_m = 0.0;  ///< >= 0, full width, of the actuator
 };
 
 /// A named part of the body; its own modulus where given, else the body's.
@@ -70,6 +73,8 @@ struct RobotDescription {
   MeshSettings mesh;
   fem::ElementType element = fem::ElementType::kTet10;
   fem::Material material;
+  std::vector<fem::PronyTerm> creep = {};         ///< of all materials
+  std::optional<fem::MullinsLaw> softening = {};  ///< of all materials
   MassSettings mass;
   Eigen::Vector3d gravity_m_s2{0.0, 0.0, -9.81};
   std::vector<Box> fixed;

@@ -7,6 +7,12 @@
 
 namespace palpate::robot {
 
+namespace {
+
+constexpr NumberRule kAboveOne{.min = 1.0, .min_open = true};
+
+}  // namespace
+
 const KeyTable& MeshKeys() {
   static const KeyTable keys{
       .title = "mesh",
@@ -21,6 +27,31 @@ const KeyTable& MeshKeys() {
                 "Translation after the rotation."},
                {"translate_mm", value::Vector3(), kOptional, "The same in millimetres."}},
       .at_most_one = {{"translate_m", "translate_mm"}}};
+  return keys;
+}
+
+const KeyTable& CreepKeys() {
+  static const KeyTable keys{
+      .title = "creep term",
+      .about =
+          "One Prony term: at once the body is stiffer by `share`, which relaxes with `time_s`.",
+      .keys = {{"share", value::Real(kPositive), kRequired,
+                "By which the instantaneous modulus is larger, as a share of "
+                "`youngs_modulus_Pa`."},
+               {"time_s", value::Real(kPositive), kRequired, "Relaxation time."}}};
+  return keys;
+}
+
+const KeyTable& SofteningKeys() {
+  static const KeyTable keys{
+      .title = "softening",
+      .about =
+          "Mullins effect (Ogden and Roxburgh): where the energy density W of an element is below "
+          "its largest value so far, its modulus is times 1 - erf((W_max - W) / `m_J_m3`) / `r`.",
+      .keys = {
+          {"r", value::Real(kAboveOne), kRequired, "The modulus falls by up to the share 1 / `r`."},
+          {"m_J_m3", value::Real(kPositive), kRequired,
+           "Energy density below the largest at which most of it has softened."}}};
   return keys;
 }
 
@@ -42,7 +73,12 @@ const KeyTable& MaterialKeys() {
                {"c20_over_c10", value::Real(), yeoh, "Ratio of Yeoh's constants C20 and C10."},
                {"c30_over_c10", value::Real(kNonNegative), yeoh,
                 "Ratio of Yeoh's constants C30 and C10. It must exceed a third of the square of a "
-                "negative `c20_over_c10`."}}};
+                "negative `c20_over_c10`."},
+               {"creep", value::ListOfMaps(CreepKeys()), kOptional,
+                "Creep of body and regions, followed from frame to frame. Absent: none."},
+               {"softening", value::Map(SofteningKeys()), kOptional,
+                "Softening by strain of body and regions, followed from frame to frame. Absent: "
+                "none."}}};
   return keys;
 }
 
@@ -86,7 +122,11 @@ const KeyTable& CableKeys() {
            "Radius over which the force of an eyelet is spread. 0: the point alone."},
           {"friction_coefficient", value::Real(kNonNegative),
            Default(CableSettings{}.friction_coefficient),
-           "Coulomb friction of the cable in its eyelets while the actuator pulls it in."}}};
+           "Coulomb friction of the cable in its eyelets. Force estimation follows where it sticks "
+           "or slides; elsewhere the actuator pulls the cable in."},
+          {"play_m", value::Real(kNonNegative), Default(CableSettings{}.play_m),
+           "Play (backlash) of the actuator, full width; it begins in its middle. Force estimation "
+           "follows it."}}};
   return keys;
 }
 

@@ -10,6 +10,8 @@ namespace palpate::robot {
 /// The keys of a robot file and of the maps in it: docs/robot_file.md is made from them.
 const KeyTable& RobotFileKeys();
 const KeyTable& MeshKeys();
+const KeyTable& CreepKeys();
+const KeyTable& SofteningKeys();
 const KeyTable& MaterialKeys();
 const KeyTable& MassKeys();
 const KeyTable& FixedKeys();

@@ -45,7 +45,8 @@ std::string MeshText(const MeshSettings& mesh, const std::filesystem::path& fold
          "\n  translate_m: " + Point(mesh.translate_m) + "\n";
 }
 
-std::string MaterialText(const fem::Material& material) {
+std::string MaterialText(const RobotDescription& robot) {
+  const fem::Material& material = robot.material;
   std::string text = "material:\n  model: " + std::string(fem::ToString(material.model)) +
                      "\n  youngs_modulus_Pa: " + FormatNumber(material.youngs_modulus_Pa) +
                      "\n  poissons_ratio: " + FormatNumber(material.poissons_ratio) +
@@ -53,6 +54,15 @@ std::string MaterialText(const fem::Material& material) {
   if (material.model == fem::MaterialModel::kYeoh) {
     text += "  c20_over_c10: " + FormatNumber(material.c20_over_c10) +
             "\n  c30_over_c10: " + FormatNumber(material.c30_over_c10) + "\n";
+  }
+  if (!robot.creep.empty()) text += "  creep:\n";
+  for (const fem::PronyTerm& term : robot.creep) {
+    text +=
+        "    - {share: " + FormatNumber(term.g) + ", time_s: " + FormatNumber(term.tau_s) + "}\n";
+  }
+  if (robot.softening) {
+    text += "  softening: {r: " + FormatNumber(robot.softening->r) +
+            ", m_J_m3: " + FormatNumber(robot.softening->m_J_m3) + "}\n";
   }
   return text;
 }
@@ -72,6 +82,7 @@ std::string CableText(const CableSettings& cable) {
   if (cable.friction_coefficient > 0.0) {
     text += "    friction_coefficient: " + FormatNumber(cable.friction_coefficient) + "\n";
   }
+  if (cable.play_m > 0.0) text += "    play_m: " + FormatNumber(cable.play_m) + "\n";
   return text;
 }
 
@@ -99,7 +110,7 @@ std::string FeaturePointsText(const RobotDescription& robot) {
 std::string FormatRobotFile(const RobotDescription& robot, const std::filesystem::path& folder) {
   std::string text = "name: " + Quoted(robot.name) + "\n" + MeshText(robot.mesh, folder);
   text += robot.element == fem::ElementType::kTet4 ? "element: tet4\n" : "element: tet10\n";
-  text += MaterialText(robot.material) + MassText(robot.mass);
+  text += MaterialText(robot) + MassText(robot.mass);
   text += "gravity_m_s2: " + Point(robot.gravity_m_s2) + "\nfixed:\n";
   for (const Box& box : robot.fixed) text += "  - {" + BoxText(box) + "}\n";
   if (!robot.cables.empty()) text += "cables:\n";

@@ -121,6 +121,7 @@ void RobotModel::AddWeight(Eigen::VectorXd& force_N) const {
   for (Eigen::Index node = 0; node < body_.node_mass_kg.size(); ++node) {
     force_N.segment<3>(3 * node) += body_.node_mass_kg[node] * gravity_m_s2_;
   }
+  if (history_force_N_.size() > 0) force_N += history_force_N_;
 }
 
 fem::ConstraintCommand RobotModel::ToConstraint(int cable_index,

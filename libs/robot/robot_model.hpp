@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libs/core/index.hpp"
@@ -118,7 +119,11 @@ class RobotModel {
   void SetGravity(const Eigen::Vector3d& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
   const Eigen::Vector3d& gravity_m_s2() const { return gravity_m_s2_; }
 
-  /// Adds each node's weight to `force_N` [3n].
+  /// A nodal dead load [3n] that goes with the weight from now on: of what the material remembers
+  /// (history_state.hpp). Empty: none.
+  void SetHistoryForce(Eigen::VectorXd force_N) { history_force_N_ = std::move(force_N); }
+
+  /// Adds each node's weight, and the history force, to `force_N` [3n].
   void AddWeight(Eigen::VectorXd& force_N) const;
   /// Loads of weight, cables and `loads` for the static solver. Checks the number of commands.
   fem::LoadState Loads(const std::vector<CableCommand>& cables,
@@ -145,6 +150,7 @@ class RobotModel {
   Eigen::VectorXd cable_rest_length_m_;
   Eigen::Vector3d gravity_m_s2_;
   std::vector<DriveCalibration> drives_;  ///< [cables]
+  Eigen::VectorXd history_force_N_;       ///< [3n], or empty
 };
 
 }  // namespace palpate::robot

@@ -13,17 +13,13 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/fem/prony_term.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "libs/scenario/effect.hpp"
 
 namespace palpate::scenario {
 
-/// One Prony term: the instantaneous modulus is (1 + sum g) times the long-term one, which is the
-/// nominal E.
-struct PronyTerm {
-  double g = 0.0;      ///< > 0
-  double tau_s = 0.0;  ///< > 0
-};
+using PronyTerm = fem::PronyTerm;
 
 /// The virtual robot's body where it differs from the robot file.
 struct BodyTruth {

@@ -25,6 +25,14 @@ class ValuesInFiles {
     Add("Poisson's ratio of the body", "", robot.material.poissons_ratio);
     if (robot.mass.density_kg_m3) Add("density of the body", "kg/m³", *robot.mass.density_kg_m3);
     if (robot.mass.total_kg) Add("mass of the body", "g", kMilli * *robot.mass.total_kg);
+    double creep = 0.0;
+    for (const fem::PronyTerm& term : robot.creep) creep += term.g;
+    Add("creep of the body", "%", 100.0 * creep);
+    Add("relaxation time of the last creep term", "s",
+        robot.creep.empty() ? 0.0 : robot.creep.back().tau_s);
+    const auto& softening = robot.softening;
+    Add("softening of the body (1 / r)", "%", softening ? 100.0 / softening->r : 0.0);
+    Add("m of the softening", "J/m³", softening ? softening->m_J_m3 : 0.0);
     for (const robot::RegionSettings& region : robot.regions) {
       const double E_Pa = region.youngs_modulus_Pa.value_or(robot.material.youngs_modulus_Pa);
       Add("E of `" + region.name + "`", "kPa", kKilo * E_Pa);
@@ -32,6 +40,7 @@ class ValuesInFiles {
     for (const robot::CableSettings& cable : robot.cables) {
       const std::string of = " of cable `" + cable.name + "`";
       Add("friction" + of, "", cable.friction_coefficient);
+      Add("play" + of, "mm", kMilli * cable.play_m);
       for (int axis = 0; axis < 3; ++axis) {
         Add(std::string(1, "xyz"[axis]) + " of the fixed eyelet" + of, "mm",
             kMilli * cable.path_m(axis, 0));

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
+
 #include "components/diagnosis/faults/makers.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -92,6 +95,13 @@ class Backlash final : public FaultModel {
   bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     hypothesis->actuators.play_m[index_] += z[0];
+  }
+
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    double& play_m = robot->cables[At(index_)].play_m;
+    play_m = std::max(0.0, play_m + z[0]);
+    return true;
   }
 
  private:

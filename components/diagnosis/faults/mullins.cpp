@@ -8,6 +8,7 @@
 #include "components/diagnosis/faults/makers.hpp"
 #include "components/diagnosis/faults/quantile.hpp"
 #include "libs/core/index.hpp"
+#include "libs/fem/mullins.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -35,6 +36,17 @@ class Mullins final : public FaultModel {
       hypothesis->mullins =
           MullinsSoftening{std::min(1.0, z[0] / Reach(z[1])), parameters()[1].ValueOf(z[1])};
     }
+  }
+
+  /// A file's material never softens to nothing.
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    constexpr double kLeast = 1.001;
+    if (z[0] > 0.0) {
+      robot->softening = fem::MullinsLaw{.r = std::max(kLeast, Reach(z[1]) / z[0]),
+                                         .m_J_m3 = parameters()[1].ValueOf(z[1])};
+    }
+    return true;
   }
 
   /// What energies answer to the softening is up to twice 1 / r of it.

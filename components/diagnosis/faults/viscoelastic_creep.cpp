@@ -27,6 +27,12 @@ class ViscoelasticCreep final : public FaultModel {
     hypothesis->creep.push_back({.g = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    if (z[0] > 0.0) robot->creep.push_back({.g = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
+    return true;
+  }
+
   /// What stresses of the past answer to g is of the order of g.
   bool NeedsSimulation(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
 

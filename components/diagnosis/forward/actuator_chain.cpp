@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libs/core/index.hpp"
+#include "libs/robot/play_operator.hpp"
 
 namespace palpate::diagnosis {
 
@@ -72,12 +73,8 @@ void ActuatorChain::GoTo(double t_s, const ActuatorSettings& settings, Place* no
     const bool by_tension = observed_.timeline.by_tension[palpate::At(c)];
     const double geared =
         (1.0 + settings.gain[c]) * followed + (by_tension ? 0.0 : settings.offset_m[c]);
-    const double half = by_tension ? 0.0 : 0.5 * settings.play_m[c];
     double& taken_in = now->taken_in[c];
-    taken_in = std::isnan(taken_in) || std::isnan(geared)
-                   ? geared
-                   : std::clamp(taken_in, std::min(geared - half, geared + half),
-                                std::max(geared - half, geared + half));
+    taken_in = robot::Play(taken_in, geared, by_tension ? 0.0 : std::abs(settings.play_m[c]));
   }
   now->commanded = next;
   now->t_s = t_s;

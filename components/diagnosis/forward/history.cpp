@@ -3,7 +3,6 @@
 
 #include "components/diagnosis/forward/history.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -205,18 +204,6 @@ HistoryOperator::Course HistoryOperator::Follow(const Eigen::MatrixXf& values) c
     course.largest.col(look) = largest;
   }
   return course;
-}
-
-Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh) {
-  Eigen::VectorXd volume_m3(mesh.CellCount());
-  for (Eigen::Index cell = 0; cell < volume_m3.size(); ++cell) {
-    const Eigen::Vector3d origin_m = mesh.nodes_m.col(mesh.cells(0, cell));
-    const auto edge_m = [&](int corner) -> Eigen::Vector3d {
-      return mesh.nodes_m.col(mesh.cells(corner, cell)) - origin_m;
-    };
-    volume_m3[cell] = edge_m(1).cross(edge_m(2)).dot(edge_m(3)) / 6.0;
-  }
-  return volume_m3;
 }
 
 Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulation& simulation) {

@@ -11,7 +11,6 @@
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/forward/model_hypothesis.hpp"
 #include "components/diagnosis/forward/simulation.hpp"
-#include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::diagnosis {
 
@@ -66,9 +65,6 @@ class HistoryOperator {
   mutable std::mutex mutex_;
   mutable std::map<double, Eigen::MatrixXd> fading_;  ///< by tau
 };
-
-/// [elements] by their corners.
-Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh);
 
 /// [elements x samples HistoryOperator::kTimesPerSample] by how much the energy density lies below
 /// the largest that each element has seen until then, J/m^3. It grows as the square of how far the

@@ -3,6 +3,8 @@
 
 #include "components/diagnosis/forward/model_hypothesis.hpp"
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 ModelHypothesis NominalHypothesis(const robot::RobotBody& body,
@@ -14,6 +16,14 @@ ModelHypothesis NominalHypothesis(const robot::RobotBody& body,
   hypothesis.marker_offset_m = Eigen::Matrix3Xd::Zero(3, std::ssize(observed.markers));
   hypothesis.T_seen.assign(observed.recordings.size(), Eigen::Isometry3d::Identity());
   hypothesis.T_surface_seen = hypothesis.T_seen;
+  for (const fem::PronyTerm& term : body.creep)
+    hypothesis.creep.push_back({.g = term.g, .tau_s = term.tau_s});
+  if (body.softening) {
+    hypothesis.mullins =
+        MullinsSoftening{.inverse_r = 1.0 / body.softening->r, .m_J_m3 = body.softening->m_J_m3};
+  }
+  for (std::size_t c = 0; c < body.cables.size(); ++c)
+    hypothesis.actuators.play_m[ToIndex(c)] = body.cables[c].play_m;
   hypothesis.surface_offset_m = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
   return hypothesis;
 }

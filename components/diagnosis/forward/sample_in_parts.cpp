@@ -46,7 +46,7 @@ class SampleInParts {
     SimulatedSample solved;
     solved.middle = simulated->middle;
     Eigen::VectorXd mean_m;
-    std::vector<EyeletSlides> slides;
+    std::vector<robot::EyeletSlides> slides;
     std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
     std::map<std::size_t, HistoryInput> of_part;
     const bool turns_round = TurnsRound(parts_, solver_.FrictionOfEyelets());
@@ -122,8 +122,9 @@ class SampleInParts {
     solved->middle.seen_m = solved->seen_m;
   }
 
-  void AddSlides(std::size_t part, const HeldShape& shape, std::vector<EyeletSlides>* slides) {
-    EyeletSlides of_part = solver_.SlidesAboutShape(shape);
+  void AddSlides(std::size_t part, const HeldShape& shape,
+                 std::vector<robot::EyeletSlides>* slides) {
+    robot::EyeletSlides of_part = solver_.SlidesAboutShape(shape);
     of_part.t_s = parts_[part].t_s;
     if (of_part.IsKnown()) slides->push_back(std::move(of_part));
   }

@@ -8,6 +8,7 @@
 
 #include "components/diagnosis/forward/history.hpp"
 #include "libs/core/index.hpp"
+#include "libs/fem/mullins.hpp"
 #include "libs/fem/surface_patch.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
@@ -64,13 +65,13 @@ SampleSolver::SampleSolver(const ModelHypothesis& hypothesis, const ObservedExpe
       obstacle_(hypothesis.obstacle ? std::make_unique<ObstacleContact>(*hypothesis.obstacle)
                                     : nullptr),
       model_(hypothesis.body, Settings(), {}, AsConstraints(&kept_, obstacle_.get())),
-      eyelets_(RubbingEyelets(hypothesis.body)),
+      eyelets_(robot::RubbingEyelets(hypothesis.body)),
       at_obstacle_(obstacle_ ? std::make_unique<ObstacleBalance>(obstacle_->obstacle(), &model_)
                              : nullptr),
       sensitivity_(model_),
       markers_(MarkerPoints(hypothesis)),
       skin_(hypothesis),
-      cell_volume_m3_(CellVolumes_m3(hypothesis.body.mesh)),
+      cell_volume_m3_(fem::CellVolumes_m3(hypothesis.body.mesh)),
       zero_shift_m_(model_.CableCount()),
       base_middle_m_(MiddleOfBase(hypothesis.body)) {
   for (int c = 0; c < model_.CableCount(); ++c) {
@@ -153,9 +154,9 @@ void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
   }
 }
 
-EyeletSlides SampleSolver::SlidesAboutShape(const HeldShape& shape) {
+robot::EyeletSlides SampleSolver::SlidesAboutShape(const HeldShape& shape) {
   if (eyelets_.empty()) return {};
-  return SlidesAbout(eyelets_, shape.commands, shape.state, model_, &sensitivity_);
+  return robot::SlidesAbout(eyelets_, shape.commands, shape.state, model_, &sensitivity_);
 }
 
 Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {

@@ -57,9 +57,11 @@ class SampleSolver {
   /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the actuators.
   void SetSliding(const Eigen::VectorXd& sliding);
   /// [RubbingEyelets] friction coefficients.
-  Eigen::VectorXd FrictionOfEyelets() const { return FrictionAt(eyelets_, hypothesis_.body); }
+  Eigen::VectorXd FrictionOfEyelets() const {
+    return robot::FrictionAt(eyelets_, hypothesis_.body);
+  }
   /// About `shape`, which was solved last.
-  EyeletSlides SlidesAboutShape(const HeldShape& shape);
+  robot::EyeletSlides SlidesAboutShape(const HeldShape& shape);
 
  private:
   std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
@@ -79,7 +81,7 @@ class SampleSolver {
   KeptStress kept_;                            ///< the first constraint after the cables
   std::unique_ptr<ObstacleContact> obstacle_;  ///< the hypothesis's, or none: the last
   robot::RobotModel model_;
-  std::vector<RubbingEyelet> eyelets_;
+  std::vector<robot::RubbingEyelet> eyelets_;
   std::unique_ptr<ObstacleBalance> at_obstacle_;  ///< with the obstacle
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::InterpolationWeights> markers_;

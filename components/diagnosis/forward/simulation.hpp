@@ -7,11 +7,11 @@
 #include <array>
 #include <vector>
 
-#include "components/diagnosis/forward/eyelet_slides.hpp"
 #include "components/diagnosis/forward/kept_stress.hpp"
 #include "libs/core/status.hpp"
 #include "libs/fem/load_state.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/eyelet_slides.hpp"
 
 namespace palpate::diagnosis {
 
@@ -55,7 +55,7 @@ struct SimulatedSample {
   HistoryInput in_the_middle;
   /// In order of time, of robots with eyelets that rub: about the middle, or of all parts where it
   /// turns_round. Empty: not known.
-  std::vector<EyeletSlides> slides;
+  std::vector<robot::EyeletSlides> slides;
   /// Where its piece begins and where that ends; empty, where another sample is nearer to there, or
   /// it is no other than in the middle.
   std::array<HistoryInput, 2> at_ends;

@@ -19,10 +19,6 @@ namespace palpate::diagnosis {
 /// loads or a tilted base do to it between recordings is left out.
 class Sticking {
  public:
-  /// m that a cable moves in an eyelet, elastically, from where it pulls neither way to where it
-  /// slides: sharper laws are harder to follow and no truer of silicone.
-  static constexpr double kPresliding_m = 5e-5;
-
   /// It must outlive it.
   explicit Sticking(const ActuatorChain& drives) : actuators_(drives) {}
 
@@ -40,11 +36,5 @@ class Sticking {
 
   const ActuatorChain& actuators_;
 };
-
-/// What sticks and slides after a step in which each eyelet's cable would slide by `freely_m`
-/// [eyelets], were friction to stay as it was at `before` [eyelets]; `slide_m` [eyelets x eyelets]:
-/// by how much more per what each changes by.
-Eigen::VectorXd StickOrSlide(const Eigen::VectorXd& before, const Eigen::VectorXd& freely_m,
-                             const Eigen::MatrixXd& slide_m);
 
 }  // namespace palpate::diagnosis

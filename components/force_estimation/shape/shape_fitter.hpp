@@ -92,6 +92,8 @@ class ShapeFitter {
   void StartAt(const fem::StaticState& state);
   bool started() const { return state_.valid; }
   void Stop() { state_.valid = false; }
+  /// To be called after other code has used the model's linearisation.
+  void ForgetFactor() { fitter_.ForgetFactor(); }
 
   /// Begins a frame; `whole`: without a limit of work.
   void BeginFrame(bool whole);

@@ -17,6 +17,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
+#include "libs/robot/history_state.hpp"
 
 namespace palpate::force_estimation {
 
@@ -35,6 +36,7 @@ class ShapeForceEstimator::Impl {
         tuning_(tuning),
         bias_(static_cast<int>(model.body().feature_points.size()), shape),
         bias_frames_(shape),
+        history_(model),
         fit_(model, config, shape),
         hidden_(model, shape, fit_),
         report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma),
@@ -50,6 +52,7 @@ class ShapeForceEstimator::Impl {
     estimate_.contacts.clear();
     published_ = fitted_ = false;
     estimate_.status = Process(frame);
+    CommitHistory();
     estimate_.iterations = fit_.TakeIterations();
     estimate_.frame_error = fit_.fitter().fit().error;
     if (!published_) Withdraw();
@@ -72,6 +75,7 @@ class ShapeForceEstimator::Impl {
 
  private:
   Status Process(const ShapeFrame& frame);
+  void CommitHistory();
   Status CheckFrame(const ShapeFrame& frame) const;
   Status Learn(const ShapeFrame& frame);
   Status Estimate(const ShapeFrame& frame);
@@ -93,6 +97,7 @@ class ShapeForceEstimator::Impl {
   ShapeForceEstimatorTuning tuning_;
   DepthBias bias_;
   BiasFrameCheck bias_frames_;
+  robot::HistoryState history_;
   ShapeFitter fit_;
   HiddenContacts hidden_;
   ContactReport report_;
@@ -116,7 +121,20 @@ class ShapeForceEstimator::Impl {
 Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   ForgetBefore(frame);
-  return frame.untouched ? Learn(frame) : Estimate(frame);
+  if (!history_.active()) return frame.untouched ? Learn(frame) : Estimate(frame);
+  ShapeFrame remembered = frame;
+  remembered.cables = history_.Prepare(frame.t_s, frame.cables);
+  fit_.ForgetFactor();
+  return frame.untouched ? Learn(remembered) : Estimate(remembered);
+}
+
+/// Frames that only have a predicted shape are left out: their forces are unknown.
+void ShapeForceEstimator::Impl::CommitHistory() {
+  const StatusCode code = estimate_.status.code();
+  const bool balanced = code == StatusCode::kOk || code == StatusCode::kNoContact ||
+                        code == StatusCode::kNoCalibration;
+  if (!history_.active() || !published_ || !balanced) return;
+  history_.Commit(fit_.state().x_m, fit_.state().lambda_a_N);
 }
 
 Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
@@ -300,6 +318,7 @@ void ShapeForceEstimator::Impl::ForgetBefore(const ShapeFrame& frame) {
   const double passed_s = frame.t_s - last_t_s_;
   last_t_s_ = frame.t_s;
   const bool opened = std::exchange(epoch_, frame.epoch) != frame.epoch;
+  if (history_.active() && opened) history_.Restart();
   const double longest_s = std::max(tuning_.least_gap_s, tuning_.gap_frames * period_s_);
   if (opened || passed_s < 0.0 || passed_s > longest_s) {
     frames_to_begin_ = tuning_.frames_to_begin;

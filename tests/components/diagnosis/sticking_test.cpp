@@ -9,19 +9,20 @@
 #include <cmath>
 #include <random>
 
-#include "components/diagnosis/forward/eyelet_slides.hpp"
 #include "components/diagnosis/forward/simulator.hpp"
+#include "libs/robot/sensitivity/eyelet_slides.hpp"
+#include "libs/robot/sticking.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-constexpr double kPresliding_m = Sticking::kPresliding_m;
+constexpr double kPresliding_m = robot::kPresliding_m;
 
 TEST(StickOrSlide, FollowsWhatSlidesFreelyAndStaysWithinOne) {
   const Eigen::Vector3d before(0.2, 1.0, -0.5);
   const Eigen::Vector3d freely_m = kPresliding_m * Eigen::Vector3d(0.5, -3.0, 7.0);
-  const Eigen::VectorXd s = StickOrSlide(before, freely_m, Eigen::Matrix3d::Zero());
+  const Eigen::VectorXd s = robot::StickOrSlide(before, freely_m, Eigen::Matrix3d::Zero());
   EXPECT_LT((s - Eigen::Vector3d(-0.3, 1.0, -1.0)).norm(), 1e-12);
 }
 
@@ -36,7 +37,7 @@ TEST(StickOrSlide, BalancesWhatItselfMoves) {
     const Eigen::VectorXd before = Eigen::VectorXd::NullaryExpr(4, [&] { return any(engine); });
     const Eigen::VectorXd freely_m =
         8.0 * kPresliding_m * Eigen::VectorXd::NullaryExpr(4, [&] { return any(engine); });
-    const Eigen::VectorXd s = StickOrSlide(before, freely_m, slide_m);
+    const Eigen::VectorXd s = robot::StickOrSlide(before, freely_m, slide_m);
     const Eigen::VectorXd slid_m = freely_m + slide_m * (s - before);
     const Eigen::VectorXd wanted = (before - slid_m / kPresliding_m).cwiseMax(-1.0).cwiseMin(1.0);
     EXPECT_LT((s - wanted).cwiseAbs().maxCoeff(), 1e-3) << "trial " << trial;
@@ -76,7 +77,7 @@ class StickingTest : public testing::Test {
 };
 
 TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
-  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(body_);
+  const std::vector<robot::RubbingEyelet> eyelets = robot::RubbingEyelets(body_);
   ASSERT_EQ(eyelets.size(), 3U);  // of cables up (two) and down; each has a knot beside
   int sticking = 0;
   for (const SamplePart& part : Parts()) {
@@ -134,8 +135,8 @@ class SmallSteps {
   SmallSteps(const ModelHypothesis& hypothesis, const ObservedExperiment& observed)
       : observed_(observed),
         solver_(hypothesis, observed),
-        eyelets_(RubbingEyelets(hypothesis.body)),
-        coefficient_(FrictionAt(eyelets_, hypothesis.body)),
+        eyelets_(robot::RubbingEyelets(hypothesis.body)),
+        coefficient_(robot::FrictionAt(eyelets_, hypothesis.body)),
         s_(Eigen::VectorXd::Zero(coefficient_.size())) {
     now_.middle.state = solver_.model().RestState();
     length_m_ = Lengths_m();
@@ -152,7 +153,7 @@ class SmallSteps {
       const Eigen::MatrixXd slide_m =
           solver_.SlidesAboutShape(now_.middle).by_friction * coefficient_.asDiagonal();
       const Eigen::VectorXd freely_m = Lengths_m() - length_m_ - slide_m * (s_ - before);
-      const Eigen::VectorXd next = StickOrSlide(before, freely_m, slide_m);
+      const Eigen::VectorXd next = robot::StickOrSlide(before, freely_m, slide_m);
       const double moved = (next - s_).cwiseAbs().maxCoeff();
       s_ = next;
       if (moved > 1e-6) continue;
@@ -180,7 +181,7 @@ class SmallSteps {
 
   const ObservedExperiment& observed_;
   SampleSolver solver_;
-  std::vector<RubbingEyelet> eyelets_;
+  std::vector<robot::RubbingEyelet> eyelets_;
   Eigen::VectorXd coefficient_, s_, length_m_;
   SimulatedSample now_;
 };

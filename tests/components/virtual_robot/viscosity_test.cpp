@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/virtual_robot/viscosity.hpp"
+#include "libs/fem/viscosity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 class ViscoelasticLaw : public ::testing::Test {
  protected:
-  Viscosity Remembering(const std::vector<scenario::PronyTerm>& prony, double damping_s) const {
+  fem::Viscosity Remembering(const std::vector<fem::PronyTerm>& prony, double damping_s) const {
     return {body_.mesh, body_.material_of_cell, prony, damping_s};
   }
   Eigen::VectorXd Mapped(const Eigen::Matrix3d& F) const {
@@ -27,7 +27,7 @@ class ViscoelasticLaw : public ::testing::Test {
     elastic_.AddForces(x_m, force_N);
     return force_N;
   }
-  Eigen::VectorXd Force_N(const Viscosity& memory, const Eigen::VectorXd& x_m) const {
+  Eigen::VectorXd Force_N(const fem::Viscosity& memory, const Eigen::VectorXd& x_m) const {
     Eigen::VectorXd force_N = memory.scale() * Elastic_N(x_m);
     memory.history().AddProduct(x_m, 1.0, force_N);
     return force_N;
@@ -41,7 +41,7 @@ class ViscoelasticLaw : public ::testing::Test {
 };
 
 TEST_F(ViscoelasticLaw, StressOfAHeldStretchRelaxesAsTheClosedForm) {
-  Viscosity memory = Remembering({{0.3, 2.0}, {0.2, 0.5}}, 0.0);
+  fem::Viscosity memory = Remembering({{0.3, 2.0}, {0.2, 0.5}}, 0.0);
   const Eigen::VectorXd stretched_m = Mapped(Eigen::Vector3d(1.3, 0.9, 0.95).asDiagonal());
   memory.Reset(body_.materials, ones_, rest_m_);
   constexpr double kJump_s = 1e-7;
@@ -60,7 +60,7 @@ TEST_F(ViscoelasticLaw, StressOfAHeldStretchRelaxesAsTheClosedForm) {
 }
 
 TEST_F(ViscoelasticLaw, OfASteadyStretchingFollowsTheConvolutionIntegral) {
-  Viscosity memory = Remembering({{0.5, 0.4}}, 0.0);
+  fem::Viscosity memory = Remembering({{0.5, 0.4}}, 0.0);
   memory.Reset(body_.materials, ones_, rest_m_);
   constexpr double kRate_1_s = 1e-5;  // small: S grows in proportion
   constexpr double kStep_s = 0.1;
@@ -78,7 +78,7 @@ TEST_F(ViscoelasticLaw, OfASteadyStretchingFollowsTheConvolutionIntegral) {
 }
 
 TEST_F(ViscoelasticLaw, FeelsNoRotation) {
-  Viscosity memory = Remembering({{0.5, 0.4}}, 1e-2);
+  fem::Viscosity memory = Remembering({{0.5, 0.4}}, 1e-2);
   memory.Reset(body_.materials, ones_, rest_m_);
   const Eigen::Vector3d axis = Eigen::Vector3d(1.0, 2.0, -0.5).normalized();
   const double stiff_N = Elastic_N(Mapped(Eigen::Vector3d(1.1, 1.0, 1.0).asDiagonal())).norm();
@@ -91,7 +91,7 @@ TEST_F(ViscoelasticLaw, FeelsNoRotation) {
 }
 
 TEST_F(ViscoelasticLaw, OfAStretchTurnsWithTheBody) {
-  Viscosity memory = Remembering({{0.5, 0.4}}, 1e-2);
+  fem::Viscosity memory = Remembering({{0.5, 0.4}}, 1e-2);
   memory.Reset(body_.materials, ones_, rest_m_);
   const Eigen::Matrix3d F = Eigen::Vector3d(1.2, 0.95, 1.0).asDiagonal();
   const Eigen::Matrix3d R =
@@ -107,7 +107,7 @@ TEST_F(ViscoelasticLaw, OfAStretchTurnsWithTheBody) {
 TEST_F(ViscoelasticLaw, OfDampingIsTheRateOfTheElasticForceForSmallStrains) {
   constexpr double kDamping_s = 0.02;
   constexpr double kStep_s = 0.01;
-  Viscosity memory = Remembering({}, kDamping_s);
+  fem::Viscosity memory = Remembering({}, kDamping_s);
   memory.Reset(body_.materials, ones_, rest_m_);
   memory.Prepare(kStep_s);
   const Eigen::VectorXd x_m = Mapped(Eigen::Vector3d(1.0 + 1e-6, 1.0, 1.0).asDiagonal());

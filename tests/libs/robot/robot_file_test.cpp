@@ -140,11 +140,44 @@ TEST(RobotFile, RefusesAnUnknownKeyAndSaysWhichWasMeant) {
               AllOf(StartsWith("robot.yaml:9:"), HasSubstr("max_tensoin_N"),
                     HasSubstr("did you mean 'max_tension_N'?"),
                     HasSubstr("allowed: name, path_m, max_tension_N, guide_radius_m, "
-                              "friction_coefficient")));
+                              "friction_coefficient, play_m")));
   EXPECT_THAT(RefusalOf(FullRobotText() + "colour: red\n"),
               AllOf(StartsWith("robot.yaml:16:"), HasSubstr("colour")));
   EXPECT_THAT(RefusalOf(Changed("element: tet10", "elemnt: tet10")),
               HasSubstr("did you mean 'element'?"));
+}
+
+TEST(RobotFile, MayRememberCreepSofteningAndPlay) {
+  const std::string ratio = "poissons_ratio: 0.45";
+  const RobotDescription robot = ReadText(
+      Changed(ratio, ratio + ", creep: [{share: 0.15, time_s: 5}, {share: 0.1, time_s: 60}], "
+                             "softening: {r: 2.5, m_J_m3: 300}"));
+  EXPECT_THAT(robot.creep,
+              testing::ElementsAre(fem::PronyTerm{0.15, 5.0}, fem::PronyTerm{0.1, 60.0}));
+  EXPECT_EQ(robot.softening, (fem::MullinsLaw{2.5, 300.0}));
+  EXPECT_EQ(ReadText(Changed("max_tension_N: 20", "play_m: 0.001")).cables[0].play_m, 0.001);
+  EXPECT_TRUE(ReadText(FullRobotText()).creep.empty());
+  EXPECT_FALSE(ReadText(FullRobotText()).softening);
+}
+
+TEST(RobotFile, RefusesAMemoryThatCannotBe) {
+  const std::string ratio = "poissons_ratio: 0.45";
+  const std::pair<const char*, const char*> cases[] = {
+      {"creep: [{share: 0, time_s: 5}]", "share"},
+      {"creep: [{share: 0.1, time_s: -1}]", "time_s"},
+      {"creep: [{share: 0.1}]", "time_s"},
+      {"creep: {share: 0.1, time_s: 5}", "must be a list of creep terms"},
+      {"creep: [{share: .nan, time_s: 5}]", "share"},
+      {"softening: {r: 1, m_J_m3: 300}", "must be > 1"},
+      {"softening: {r: 2, m_J_m3: 0}", "m_J_m3"},
+      {"softening: {r: 2, m_kJ_m3: 0.3}", "m_J_m3"}};
+  for (const auto& [given, says] : cases) {
+    EXPECT_THAT(RefusalOf(Changed(ratio, ratio + ", " + given)),
+                AllOf(StartsWith("robot.yaml:4:"), HasSubstr(says)))
+        << given;
+  }
+  EXPECT_THAT(RefusalOf(Changed("max_tension_N: 20", "play_m: -0.001")),
+              AllOf(StartsWith("robot.yaml:9:"), HasSubstr("play_m")));
 }
 
 TEST(RobotFile, RefusesAUnitThatDoesNotFit) {

@@ -22,6 +22,8 @@ void ExpectSameRobot(const RobotDescription& a, const RobotDescription& b) {
   EXPECT_EQ(a.material.volumetric, b.material.volumetric);
   EXPECT_EQ(a.material.youngs_modulus_Pa, b.material.youngs_modulus_Pa);
   EXPECT_EQ(a.material.poissons_ratio, b.material.poissons_ratio);
+  EXPECT_EQ(a.creep, b.creep);
+  EXPECT_EQ(a.softening, b.softening);
   EXPECT_EQ(a.mass.total_kg, b.mass.total_kg);
   EXPECT_EQ(a.mass.density_kg_m3, b.mass.density_kg_m3);
   EXPECT_EQ(a.mass.distribution, b.mass.distribution);
@@ -42,6 +44,8 @@ void ExpectSameLists(const RobotDescription& a, const RobotDescription& b) {
     EXPECT_EQ(a.cables[k].path_m, b.cables[k].path_m);
     EXPECT_EQ(a.cables[k].max_tension_N, b.cables[k].max_tension_N);
     EXPECT_EQ(a.cables[k].guide_radius_m, b.cables[k].guide_radius_m);
+    EXPECT_EQ(a.cables[k].friction_coefficient, b.cables[k].friction_coefficient);
+    EXPECT_EQ(a.cables[k].play_m, b.cables[k].play_m);
   }
   ASSERT_EQ(a.regions.size(), b.regions.size());
   for (size_t k = 0; k < a.regions.size(); ++k) {
@@ -65,6 +69,10 @@ TEST(WriteRobotFile, WhatIsReadBackIsTheSame) {
               "density_kg_m3: 1070.1, distribution: per_node"),
       Changed("element: tet10", "element: tet4"),
       Changed("poissons_ratio: 0.45", "poissons_ratio: 0.499, volumetric: pointwise"),
+      Changed("poissons_ratio: 0.45",
+              "poissons_ratio: 0.45, creep: [{share: 0.15, time_s: 5}, {share: 1, time_s: 60}], "
+              "softening: {r: 2.5, m_J_m3: 300}"),
+      Changed("max_tension_N: 20", "max_tension_N: 20, play_m: 0.0012"),
       Changed("name: test beam", "name: 'a \\ back'"),
       Changed("box_m: [[-0.02, 0, -0.02], [0.02, 0.02, 0.02]]", "mesh_group: 'soft body: 1'"),
       Changed("{count: 12}", "[[0, 0.1, 0], [0.1e-7, 0.05, 0.0123456789]]")};

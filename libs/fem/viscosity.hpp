@@ -9,9 +9,9 @@
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/node_matrix.hpp"
 #include "libs/fem/point_stress.hpp"
-#include "libs/scenario/scenario.hpp"
+#include "libs/fem/prony_term.hpp"
 
-namespace palpate::virtual_robot {
+namespace palpate::fem {
 
 /// What the material remembers: finite linear viscoelasticity on the second Piola-Kirchhoff stress
 /// (J. C. Simo, On a fully three-dimensional finite-strain viscoelastic damage model, Comput.
@@ -24,30 +24,30 @@ namespace palpate::virtual_robot {
 ///   F(x) = scale() F_elastic(x) + history() x.
 class Viscosity {
  public:
-  Viscosity(const fem::TetMesh& mesh, const std::vector<int>& material_of_cell,
-            std::vector<scenario::PronyTerm> prony, double stiffness_damping_s);
+  Viscosity(const TetMesh& mesh, const std::vector<int>& material_of_cell,
+            std::vector<PronyTerm> prony, double stiffness_damping_s);
 
   /// Whether there is anything to remember; without, scale() is 1 and history() is not used.
   bool active() const { return !prony_.empty() || stiffness_damping_s_ > 0.0; }
-  void BindTo(const fem::StiffnessMatrix& stiffness) { history_.BindTo(stiffness); }
+  void BindTo(const StiffnessMatrix& stiffness) { history_.BindTo(stiffness); }
 
   /// Fully relaxed at the positions `x_m` [3n]. `factor_of_cell` [cells] of the moduli.
-  void Reset(const std::vector<fem::Material>& materials, const Eigen::VectorXd& factor_of_cell,
+  void Reset(const std::vector<Material>& materials, const Eigen::VectorXd& factor_of_cell,
              const Eigen::VectorXd& x_m);
   /// For the balance `later_s` > 0 after the state that Reset or Advance left.
   void Prepare(double later_s);
   double scale() const { return scale_; }
-  const fem::NodeMatrix& history() const { return history_; }
+  const NodeMatrix& history() const { return history_; }
   /// On by `h_s`, to the positions `x_m`.
-  void Advance(const std::vector<fem::Material>& materials, const Eigen::VectorXd& factor_of_cell,
+  void Advance(const std::vector<Material>& materials, const Eigen::VectorXd& factor_of_cell,
                const Eigen::VectorXd& x_m, double h_s);
 
  private:
   using Stresses = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-  fem::PointStress points_;
-  fem::NodeMatrix history_;
-  std::vector<scenario::PronyTerm> prony_;
+  PointStress points_;
+  NodeMatrix history_;
+  std::vector<PronyTerm> prony_;
   double stiffness_damping_s_;
   double scale_ = 1.0;
   Stresses elastic_Pa_;              ///< S_inf now
@@ -55,4 +55,4 @@ class Viscosity {
   Stresses work_Pa_;
 };
 
-}  // namespace palpate::virtual_robot
+}  // namespace palpate::fem

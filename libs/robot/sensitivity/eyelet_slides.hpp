@@ -10,7 +10,7 @@
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
-namespace palpate::diagnosis {
+namespace palpate::robot {
 
 /// An eyelet that a cable runs through, where it may rub: all but the last, where it is attached.
 struct RubbingEyelet {
@@ -19,10 +19,10 @@ struct RubbingEyelet {
 };
 
 /// Cable by cable, from the actuator on.
-std::vector<RubbingEyelet> RubbingEyelets(const robot::RobotBody& body);
+std::vector<RubbingEyelet> RubbingEyelets(const RobotBody& body);
 
 /// [eyelets] the friction coefficients of their cables.
-Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets, const robot::RobotBody& body);
+Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets, const RobotBody& body);
 
 /// How far cables slide in their rubbing eyelets about an equilibrium, to first order: by how much
 /// the length from each eyelet to the end of its cable grows, m.
@@ -37,8 +37,7 @@ struct EyeletSlides {
 /// Of the equilibrium `state`, which `solver`'s model has with `commands`; not known, where there
 /// are no derivatives.
 EyeletSlides SlidesAbout(const std::vector<RubbingEyelet>& eyelets,
-                         const std::vector<robot::CableCommand>& commands,
-                         const fem::StaticState& state, const robot::RobotModel& model,
-                         robot::SensitivitySolver* solver);
+                         const std::vector<CableCommand>& commands, const fem::StaticState& state,
+                         const RobotModel& model, SensitivitySolver* solver);
 
-}  // namespace palpate::diagnosis
+}  // namespace palpate::robot

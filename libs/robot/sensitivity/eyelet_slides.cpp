@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/forward/eyelet_slides.hpp"
+#include "libs/robot/sensitivity/eyelet_slides.hpp"
 
 #include "libs/core/index.hpp"
 #include "libs/robot/cable_path.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
-namespace palpate::diagnosis {
+namespace palpate::robot {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = CableCommand::Kind;
 
 /// [eyelets of the cable x parameters] by how much the length from each to the cable's end grows.
-Eigen::MatrixXd LengthsBeyond(const robot::Cable& cable, const Eigen::VectorXd& x_m,
-                              const robot::SensitivitySolver& solver) {
-  robot::CablePath path;
+Eigen::MatrixXd LengthsBeyond(const Cable& cable, const Eigen::VectorXd& x_m,
+                              const SensitivitySolver& solver) {
+  CablePath path;
   path.Evaluate(cable.Path_m(x_m), {});
   Eigen::MatrixXd motions_m;
   solver.PointMotions(cable.eyelets(), &motions_m);
@@ -31,7 +31,7 @@ Eigen::MatrixXd LengthsBeyond(const robot::Cable& cable, const Eigen::VectorXd& 
 
 }  // namespace
 
-std::vector<RubbingEyelet> RubbingEyelets(const robot::RobotBody& body) {
+std::vector<RubbingEyelet> RubbingEyelets(const RobotBody& body) {
   std::vector<RubbingEyelet> eyelets;
   for (std::size_t c = 0; c < body.cables.size(); ++c) {
     for (std::size_t e = 0; e + 1 < body.cables[c].eyelets.size(); ++e) {
@@ -41,8 +41,7 @@ std::vector<RubbingEyelet> RubbingEyelets(const robot::RobotBody& body) {
   return eyelets;
 }
 
-Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets,
-                           const robot::RobotBody& body) {
+Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets, const RobotBody& body) {
   Eigen::VectorXd coefficient(std::ssize(eyelets));
   for (std::size_t k = 0; k < eyelets.size(); ++k) {
     const auto cable = static_cast<std::size_t>(eyelets[k].cable);
@@ -52,20 +51,19 @@ Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets,
 }
 
 EyeletSlides SlidesAbout(const std::vector<RubbingEyelet>& eyelets,
-                         const std::vector<robot::CableCommand>& commands,
-                         const fem::StaticState& state, const robot::RobotModel& model,
-                         robot::SensitivitySolver* solver) {
-  std::vector<robot::ParameterPtr> parameters;
+                         const std::vector<CableCommand>& commands, const fem::StaticState& state,
+                         const RobotModel& model, SensitivitySolver* solver) {
+  std::vector<ParameterPtr> parameters;
   for (const RubbingEyelet& one : eyelets) {
-    parameters.push_back(robot::CableFrictionAt(one.cable, one.eyelet));
+    parameters.push_back(CableFrictionAt(one.cable, one.eyelet));
   }
   std::vector<Eigen::Index> driven;  // cables
   for (std::size_t c = 0; c < commands.size(); ++c) {
     const int cable = static_cast<int>(c);
     if (commands[c].kind == Kind::kDisplacement) {
-      parameters.push_back(robot::CableOffset(cable));
+      parameters.push_back(CableOffset(cable));
     } else if (commands[c].kind == Kind::kTension) {
-      parameters.push_back(robot::TensionOffset(cable));
+      parameters.push_back(TensionOffset(cable));
     } else {
       continue;
     }
@@ -89,4 +87,4 @@ EyeletSlides SlidesAbout(const std::vector<RubbingEyelet>& eyelets,
   return slides;
 }
 
-}  // namespace palpate::diagnosis
+}  // namespace palpate::robot

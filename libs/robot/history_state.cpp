@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/history_state.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
+#include "libs/fem/mullins.hpp"
+#include "libs/fem/viscosity.hpp"
+#include "libs/robot/play_operator.hpp"
+#include "libs/robot/sensitivity/eyelet_slides.hpp"
+#include "libs/robot/sticking.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+using Kind = CableCommand::Kind;
+
+bool HasPlay(const RobotBody& body) {
+  return std::any_of(body.cables.begin(), body.cables.end(),
+                     [](const BodyCable& cable) { return cable.play_m > 0.0; });
+}
+
+bool HasFriction(const RobotBody& body) {
+  const Eigen::VectorXd coefficient = FrictionAt(RubbingEyelets(body), body);
+  return coefficient.size() > 0 && coefficient.maxCoeff() > 0.0;
+}
+
+/// [cables] by how much the actuators take in more, m, or pull harder, N; 0 where a cable is
+/// commanded otherwise than before.
+Eigen::VectorXd StepOf(const std::vector<CableCommand>& from, const std::vector<CableCommand>& to) {
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(std::ssize(to));
+  for (std::size_t c = 0; c < to.size(); ++c) {
+    if (to[c].kind == from[c].kind && to[c].kind != Kind::kNone)
+      step[ToIndex(c)] = to[c].value - from[c].value;
+  }
+  return step;
+}
+
+}  // namespace
+
+/// Where cables stick and slide. What they slide by is predicted from the commands before a frame,
+/// and taken from its shape afterwards, which contacts have a part in.
+class HistoryState::Eyelets {
+ public:
+  Eyelets(RobotModel& model, const HistoryTuning& tuning)
+      : model_(model),
+        tuning_(tuning),
+        eyelets_(RubbingEyelets(model.body())),
+        coefficient_(FrictionAt(eyelets_, model.body())),
+        sensitivity_(model) {
+    Restart();
+  }
+
+  void Restart() {
+    sliding_.setZero(coefficient_.size());
+    assumed_ = sliding_;
+    slides_ = {};
+    known_ = false;
+    SetFriction(sliding_);
+  }
+
+  void Prepare(const std::vector<CableCommand>& commands) {
+    if (!known_) return;
+    RenewSlides(commands);
+    if (slides_.IsKnown()) {
+      assumed_ =
+          StickOrSlide(sliding_, slides_.by_command * StepOf(commands_, commands), BySliding_m());
+    }
+    SetFriction(assumed_);
+  }
+
+  void Commit(const std::vector<CableCommand>& commands, const Eigen::VectorXd& x_m,
+              const Eigen::VectorXd& tension_N) {
+    const Eigen::VectorXd lengths_m = LengthsBeyond_m(x_m);
+    if (known_ && slides_.IsKnown()) {
+      const Eigen::MatrixXd by_sliding_m = BySliding_m();
+      const Eigen::VectorXd freely_m =
+          lengths_m - lengths_m_ - by_sliding_m * (assumed_ - sliding_);
+      sliding_ = StickOrSlide(sliding_, freely_m, by_sliding_m);
+    }
+    lengths_m_ = lengths_m;
+    commands_ = commands;
+    state_.x_m = x_m;
+    state_.multipliers_N = tension_N;
+    state_.loads = model_.Loads(commands, {});  // contacts change no derivative
+    known_ = true;
+  }
+
+ private:
+  /// About the last shape, where the commands have gone far since, or other cables are taut.
+  void RenewSlides(const std::vector<CableCommand>& commands) {
+    const Eigen::VectorXd step = StepOf(commands_, commands);
+    if (step.isZero(0.0) && slides_.IsKnown()) return;
+    const bool near = slides_.IsKnown() &&
+                      StepOf(slides_at_, commands).cwiseAbs().maxCoeff() < tuning_.renew_slides_m &&
+                      Taut() == taut_;
+    if (near) return;
+    SetFriction(sliding_);
+    EyeletSlides slides = SlidesAbout(eyelets_, commands_, state_, model_, &sensitivity_);
+    if (!slides.IsKnown()) return;
+    slides_ = std::move(slides);
+    slides_at_ = commands_;
+    taut_ = Taut();
+  }
+
+  std::vector<bool> Taut() const {
+    std::vector<bool> taut;
+    for (Eigen::Index c = 0; c < model_.CableCount(); ++c)
+      taut.push_back(state_.multipliers_N[c] > 0.0);
+    return taut;
+  }
+
+  /// [eyelets x eyelets] m that cables slide farther per what each eyelet's sliding changes by.
+  Eigen::MatrixXd BySliding_m() const { return slides_.by_friction * coefficient_.asDiagonal(); }
+
+  /// [eyelets] of each cable from there to its end.
+  Eigen::VectorXd LengthsBeyond_m(const Eigen::VectorXd& x_m) const {
+    Eigen::VectorXd lengths_m(coefficient_.size());
+    for (std::size_t k = 0; k < eyelets_.size(); ++k) {
+      const Eigen::Matrix3Xd path_m = model_.cable(eyelets_[k].cable).Path_m(x_m);
+      double length_m = 0.0;
+      for (Eigen::Index p = eyelets_[k].eyelet + 2; p < path_m.cols(); ++p)
+        length_m += (path_m.col(p) - path_m.col(p - 1)).norm();
+      lengths_m[ToIndex(k)] = length_m;
+    }
+    return lengths_m;
+  }
+
+  void SetFriction(const Eigen::VectorXd& sliding) {
+    std::vector<CableFriction> friction;  // [cables]
+    for (const BodyCable& cable : model_.body().cables) {
+      friction.push_back({cable.friction_coefficient, std::vector<double>(cable.eyelets.size())});
+    }
+    for (std::size_t k = 0; k < eyelets_.size(); ++k) {
+      friction[At(eyelets_[k].cable)].sliding[At(eyelets_[k].eyelet)] = sliding[ToIndex(k)];
+    }
+    for (int c = 0; c < model_.CableCount(); ++c) model_.SetCableFriction(c, friction[At(c)]);
+  }
+
+  RobotModel& model_;
+  HistoryTuning tuning_;
+  std::vector<RubbingEyelet> eyelets_;
+  Eigen::VectorXd coefficient_;  ///< [eyelets]
+  SensitivitySolver sensitivity_;
+  EyeletSlides slides_;
+  std::vector<CableCommand> slides_at_;  ///< of which they are
+  std::vector<bool> taut_;               ///< [cables] there
+  bool known_ = false;                   ///< what follows
+  Eigen::VectorXd sliding_;              ///< [eyelets] at the last shape
+  Eigen::VectorXd assumed_;              ///< [eyelets] in the frame that was prepared
+  Eigen::VectorXd lengths_m_;            ///< [eyelets] at the last shape
+  std::vector<CableCommand> commands_;   ///< of the last shape
+  fem::StaticState state_;               ///< the last shape
+};
+
+/// Creep and softening. What creep has left of the past is a stress that stays with the material.
+/// Its force is a dead load of the frame, and what creep adds at once is part of the cell factors.
+class HistoryState::Memory {
+ public:
+  explicit Memory(RobotModel& model)
+      : model_(model),
+        creep_(model.body().mesh, model.body().material_of_cell, model.body().creep, 0.0),
+        softening_(model.body().softening),
+        volume_m3_(fem::CellVolumes_m3(model.body().mesh)) {
+    Restart();
+  }
+
+  void Restart() {
+    began_ = false;
+    damage_.setOnes(volume_m3_.size());
+    largest_J_m3_.setZero(volume_m3_.size());
+    scale_ = 1.0;
+    model_.SetHistoryForce({});
+    model_.elastic_body().SetCellFactors(damage_);
+  }
+
+  void Prepare(double t_s) {
+    if (!began_) return;
+    const double step_s = t_s - t_s_;
+    if (creep_.active() && step_s > 0.0) {
+      creep_.Prepare(step_s);
+      scale_ = creep_.scale();
+      Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m_.size());
+      creep_.history().AddProduct(x_m_, -1.0, force_N);
+      model_.SetHistoryForce(std::move(force_N));
+    }
+    model_.elastic_body().SetCellFactors(scale_ * damage_);
+  }
+
+  void Commit(double t_s, const Eigen::VectorXd& x_m) {
+    const std::vector<fem::Material>& materials = model_.body().materials;
+    if (!began_) {
+      creep_.Reset(materials, damage_, x_m);
+    } else if (t_s > t_s_) {
+      creep_.Advance(materials, damage_, x_m, t_s - t_s_);
+    }
+    if (softening_) {
+      Eigen::VectorXd energy_J;
+      model_.elastic_body().CellEnergies(x_m, &energy_J);
+      const Eigen::VectorXd undamaged_m3 = scale_ * damage_.cwiseProduct(volume_m3_);
+      fem::StepDamage(*softening_, energy_J.cwiseQuotient(undamaged_m3), &largest_J_m3_, &damage_);
+    }
+    began_ = true;
+    t_s_ = t_s;
+    x_m_ = x_m;
+  }
+
+ private:
+  RobotModel& model_;
+  fem::Viscosity creep_;
+  std::optional<fem::MullinsLaw> softening_;
+  Eigen::VectorXd volume_m3_;     ///< [elements]
+  Eigen::VectorXd damage_;        ///< [elements] eta
+  Eigen::VectorXd largest_J_m3_;  ///< [elements] W_max
+  double scale_ = 1.0;            ///< by creep, of the frame that was prepared
+  bool began_ = false;
+  double t_s_ = 0.0;     ///< of the last shape
+  Eigen::VectorXd x_m_;  ///< [3n] the last shape
+};
+
+HistoryState::HistoryState(RobotModel& model, const HistoryTuning& tuning)
+    : model_(model),
+      active_(HasPlay(model.body()) || HasFriction(model.body()) || !model.body().creep.empty() ||
+              model.body().softening.has_value()) {
+  if (HasFriction(model.body())) eyelets_ = std::make_unique<Eyelets>(model, tuning);
+  if (!model.body().creep.empty() || model.body().softening)
+    memory_ = std::make_unique<Memory>(model);
+}
+
+HistoryState::~HistoryState() = default;
+
+void HistoryState::Restart() {
+  began_ = false;
+  if (eyelets_) eyelets_->Restart();
+  if (memory_) memory_->Restart();
+}
+
+const std::vector<CableCommand>& HistoryState::Prepare(double t_s,
+                                                       const std::vector<CableCommand>& commands) {
+  PALPATE_CHECK(static_cast<int>(commands.size()) == model_.CableCount(), commands.size());
+  if (began_ && t_s < t_s_) Restart();
+  if (!began_) commands_ = commands;
+  for (std::size_t c = 0; c < commands.size(); ++c) {
+    const bool followed =
+        commands[c].kind == Kind::kDisplacement && commands_[c].kind == Kind::kDisplacement;
+    const double play_m = model_.body().cables[c].play_m;
+    const double value =
+        followed ? Play(commands_[c].value, commands[c].value, play_m) : commands[c].value;
+    commands_[c] = {commands[c].kind, value};
+  }
+  began_ = true;
+  t_s_ = t_s;
+  if (eyelets_) eyelets_->Prepare(commands_);
+  if (memory_) memory_->Prepare(t_s);
+  return commands_;
+}
+
+void HistoryState::Commit(const Eigen::VectorXd& x_m, const Eigen::VectorXd& tension_N) {
+  PALPATE_CHECK(began_);
+  if (eyelets_) eyelets_->Commit(commands_, x_m, tension_N);
+  if (memory_) memory_->Commit(t_s_, x_m);
+}
+
+}  // namespace palpate::robot

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::robot {
+
+struct HistoryTuning {
+  /// Commands that move farther than this since the slides of the cables were computed have them
+  /// computed again, which costs a factorisation. Larger: fewer; smaller: truer where it bends
+  /// much.
+  double renew_slides_m = 5e-4;
+};
+
+/// What a robot remembers, followed from frame to frame: the play of its actuators, where its
+/// cables stick and slide (sticking.hpp), creep (fem/viscosity.hpp) and softening (fem/mullins.hpp)
+/// of its material, as its body has them (RobotBody). Between frames commands go straight, and a
+/// frame that is left out is a longer step.
+///
+/// It begins relaxed at the first posture of a sequence, with the play in its middle, nothing slid
+/// yet, and a material that was never strained more than there.
+class HistoryState {
+ public:
+  /// Brings `model`, which must outlive it, to that beginning. Does nothing where !active().
+  explicit HistoryState(RobotModel& model, const HistoryTuning& tuning = {});
+  ~HistoryState();
+
+  /// Whether the robot remembers anything. Without, commands pass and the model stays as it is.
+  bool active() const { return active_; }
+  /// Back to the beginning: of another sequence.
+  void Restart();
+
+  /// The commands as they reach the cables in a frame at `t_s`, s. Sets friction, cell factors and
+  /// the history force of the model to what is left of the past then. Uses the model's
+  /// linearisation. A time before the last one's begins a sequence.
+  const std::vector<CableCommand>& Prepare(double t_s, const std::vector<CableCommand>& commands);
+  /// The frame that was prepared has the shape `x_m` [3n] and the tensions `tension_N` [cables] at
+  /// the actuators. Not called where a frame tells no shape: the next one takes the longer step.
+  void Commit(const Eigen::VectorXd& x_m, const Eigen::VectorXd& tension_N);
+
+ private:
+  class Eyelets;
+  class Memory;
+
+  RobotModel& model_;
+  bool active_;
+  double t_s_ = 0.0;
+  bool began_ = false;
+  std::vector<CableCommand> commands_;  ///< as they reach the cables
+  std::unique_ptr<Eyelets> eyelets_;    ///< or nothing: no cable rubs
+  std::unique_ptr<Memory> memory_;      ///< or nothing: the material remembers nothing
+};
+
+}  // namespace palpate::robot

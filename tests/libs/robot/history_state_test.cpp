@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/history_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/libs/robot/beam_model.hpp"
+
+namespace palpate::robot {
+namespace {
+
+/// What a robot with a memory does in frames that follow each other.
+class HistoryStateTest : public BeamModelTest {
+ protected:
+  /// The beam with these keys in its first cable, north, and in its material.
+  std::unique_ptr<RobotModel> With(const std::string& cable, const std::string& material = "") {
+    std::string text = FullRobotText();
+    const auto add_behind = [&](const std::string& key, const std::string& more) {
+      text.insert(text.find(key) + key.size(), more);
+    };
+    add_behind("max_tension_N: 20", cable);
+    const std::string modulus_of_tip = ", youngs_modulus_Pa: 30e3";
+    text.erase(text.find(modulus_of_tip), modulus_of_tip.size());
+    add_behind("poissons_ratio: 0.45", material);
+    return Build(text);
+  }
+
+  /// The equilibrium of a frame, committed.
+  fem::StaticState Follow(double t_s, double displacement_m, RobotModel* model,
+                          HistoryState* history) {
+    std::vector<CableCommand> commands(static_cast<std::size_t>(model->CableCount()));
+    commands[0] = Displace(displacement_m);
+    const std::vector<CableCommand> reached = history->Prepare(t_s, commands);
+    EXPECT_TRUE(model->Solve(reached, {}, &state_).status.ok());
+    history->Commit(state_.x_m, state_.multipliers_N);
+    return state_;
+  }
+
+  /// By which the model's cells and history load a body at `x_m` [3n].
+  static Eigen::VectorXd Resistance_N(RobotModel& model, const Eigen::VectorXd& x_m) {
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m.size());
+    model.elastic_body().AddForces(x_m, force_N);
+    Eigen::VectorXd dead_N = Eigen::VectorXd::Zero(x_m.size());
+    model.AddWeight(dead_N);
+    return force_N - dead_N;
+  }
+
+  fem::StaticState state_;
+};
+
+TEST_F(HistoryStateTest, LeavesARobotWithoutMemoryAsItIs) {
+  const auto model = With("");
+  HistoryState history(*model);
+  EXPECT_FALSE(history.active());
+  const std::vector<CableCommand> commands = {Displace(0.003), Pull(1.0)};
+  for (const double t_s : {0.0, 0.1, 5.0}) EXPECT_EQ(history.Prepare(t_s, commands), commands);
+  EXPECT_EQ(model->cable(0).friction().Sliding(0), 1.0);
+}
+
+TEST_F(HistoryStateTest, PlayFollowsTheCommandsAtAnySpeed) {
+  const auto model = With(", play_m: 0.002");
+  for (const double step_s : {0.01, 1.0}) {
+    HistoryState history(*model);
+    double t_s = 0.0;
+    const auto reached = [&](double displacement_m) {
+      t_s += step_s;
+      return history.Prepare(t_s, {Displace(displacement_m), {}})[0].value;
+    };
+    EXPECT_EQ(reached(0.004), 0.004);            // in the middle
+    EXPECT_NEAR(reached(0.0045), 0.004, 1e-15);  // within the play
+    EXPECT_NEAR(reached(0.008), 0.007, 1e-15);   // pulls half the play behind
+    EXPECT_NEAR(reached(0.0065), 0.007, 1e-15);  // let out by less than the play
+    EXPECT_NEAR(reached(0.002), 0.003, 1e-15);   // lets out half the play behind
+    EXPECT_NEAR(reached(0.003999), 0.003, 1e-15);
+    history.Restart();
+    EXPECT_EQ(reached(0.001), 0.001);
+  }
+}
+
+TEST_F(HistoryStateTest, PlayIsOfDisplacementsOnly) {
+  const auto model = With(", play_m: 0.002");
+  HistoryState history(*model);
+  for (const double tension_N : {1.0, 1.5, 0.5}) {
+    EXPECT_EQ(history.Prepare(tension_N, {Pull(tension_N), {}})[0], Pull(tension_N));
+  }
+}
+
+/// A held body resists with (1 + g exp(-t / tau)) times its elastic forces after a step.
+TEST_F(HistoryStateTest, CreepRelaxesWithItsTime) {
+  const auto model = With("", ", creep: [{share: 0.3, time_s: 2}]");
+  model->SetGravity(Eigen::Vector3d::Zero());
+  const Eigen::VectorXd rest_m = model->RestState().x_m;
+  Eigen::VectorXd bent_m = rest_m;
+  for (Eigen::Index n = 0; n < bent_m.size() / 3; ++n) {
+    bent_m[3 * n + 2] += 2.0 * std::pow(rest_m[3 * n + 1], 2.0);
+  }
+  const Eigen::VectorXd elastic_N = Resistance_N(*model, bent_m);
+  HistoryState history(*model);
+  const std::vector<CableCommand> off(2);
+  const Eigen::VectorXd slack_N = Eigen::VectorXd::Zero(2);
+  const auto commit = [&](double t_s, const Eigen::VectorXd& x_m) {
+    history.Prepare(t_s, off);
+    history.Commit(x_m, slack_N);
+  };
+  commit(0.0, rest_m);
+  commit(1e-6, bent_m);
+  // Steps of any length, also where frames are missing.
+  for (const double t_s : {0.1, 0.2, 0.5, 1.0, 3.0, 3.1, 10.0}) {
+    history.Prepare(t_s, off);
+    const double factor = 1.0 + 0.3 * std::exp(-t_s / 2.0);
+    EXPECT_LT((Resistance_N(*model, bent_m) - factor * elastic_N).norm(), 1e-5 * elastic_N.norm())
+        << t_s;
+    history.Commit(bent_m, slack_N);
+  }
+  history.Restart();
+  EXPECT_EQ(Resistance_N(*model, bent_m), elastic_N);
+}
+
+/// Ogden and Roxburgh's law in a cell whose energy density has fallen.
+TEST_F(HistoryStateTest, SoftensBelowTheLargestStrain) {
+  const auto model = With("", ", softening: {r: 2, m_J_m3: 20}");
+  model->SetGravity(Eigen::Vector3d::Zero());
+  const Eigen::VectorXd rest_m = model->RestState().x_m;
+  const auto stretched_m = [&](double by) {
+    Eigen::VectorXd x_m = rest_m;
+    for (Eigen::Index n = 0; n < x_m.size() / 3; ++n) x_m[3 * n + 1] *= 1.0 + by;
+    return x_m;
+  };
+  const auto density_J_m3 = [&](double by) {
+    Eigen::VectorXd energy_J;
+    model->elastic_body().CellEnergies(stretched_m(by), &energy_J);
+    return energy_J[0] / fem::CellVolumes_m3(model->body().mesh)[0];
+  };
+  const double largest_J_m3 = density_J_m3(0.05);
+  const double now_J_m3 = density_J_m3(0.03);
+  const Eigen::VectorXd virgin_N = Resistance_N(*model, stretched_m(0.03));
+  HistoryState history(*model);
+  const std::vector<CableCommand> off(2);
+  for (int frame = 0; frame < 40; ++frame) {
+    history.Prepare(0.1 * frame, off);
+    history.Commit(stretched_m(frame < 20 ? 0.05 : 0.03), Eigen::VectorXd::Zero(2));
+  }
+  history.Prepare(4.0, off);
+  // The energy of a body stretched alike is the same in every cell of one material, and so is eta.
+  const double eta = 1.0 - std::erf((largest_J_m3 - now_J_m3) / 20.0) / 2.0;
+  ASSERT_LT(eta, 0.9);
+  EXPECT_LT((Resistance_N(*model, stretched_m(0.03)) - eta * virgin_N).norm(),
+            1e-4 * virgin_N.norm());
+}
+
+/// The actuator pulls harder than without friction while it takes the cable in, and less hard at
+/// the same length while it lets it out.
+TEST_F(HistoryStateTest, FrictionMakesAHysteresis) {
+  const auto tensions_N = [&](const std::string& friction) {
+    const auto model = With(friction);
+    HistoryState history(*model);
+    state_ = model->RestState();
+    std::vector<double> tension_N;
+    for (int frame = 0; frame <= 15; ++frame) {
+      const double displacement_m = 4e-4 * (frame <= 10 ? frame : 20 - frame);
+      const fem::StaticState state = Follow(0.1 * frame, displacement_m, model.get(), &history);
+      if (frame == 5 || frame == 15) tension_N.push_back(state.multipliers_N[0]);
+    }
+    return tension_N;
+  };
+  const std::vector<double> smooth_N = tensions_N("");
+  const std::vector<double> rough_N = tensions_N(", friction_coefficient: 0.2");
+  EXPECT_NEAR(smooth_N[1], smooth_N[0], 1e-4 * smooth_N[0]);
+  EXPECT_GT(rough_N[0], 1.001 * smooth_N[0]);
+  EXPECT_LT(rough_N[1], 0.999 * smooth_N[1]);
+}
+
+TEST_F(HistoryStateTest, EarlierTimesBeginASequence) {
+  const auto model = With(", play_m: 0.002");
+  HistoryState history(*model);
+  history.Prepare(5.0, {Displace(0.004), {}});
+  EXPECT_EQ(history.Prepare(1.0, {Displace(0.0045), {}})[0].value, 0.0045);
+}
+
+}  // namespace
+}  // namespace palpate::robot
