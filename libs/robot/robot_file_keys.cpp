@@ -46,8 +46,9 @@ const KeyTable& SofteningKeys() {
   static const KeyTable keys{
       .title = "softening",
       .about =
-          "Mullins effect (Ogden and Roxburgh): where the energy density W of an element is below "
-          "its largest value so far, its modulus is times 1 - erf((W_max - W) / `m_J_m3`) / `r`.",
+          "Mullins effect (Ogden and Roxburgh). Moduli of an element are times 1 - erf((W_max - W) "
+          "/ "
+          "`m_J_m3`) / `r`. W is its energy density, W_max the largest so far.",
       .keys = {
           {"r", value::Real(kAboveOne), kRequired, "The modulus falls by up to the share 1 / `r`."},
           {"m_J_m3", value::Real(kPositive), kRequired,
