@@ -48,6 +48,22 @@ double SquaredDistanceFromZero(const ContactForce& contact) {
   return sum;
 }
 
+/// Of a frame without a force, where the fit has told its code alone.
+Status WithReason(const Status& status) {
+  if (!status.message().empty()) return status;
+  switch (status.code()) {
+    case StatusCode::kNotConverged:
+      return {status.code(), "no forces were found that balance the model near the markers"};
+    case StatusCode::kInverted:
+      return {status.code(), "an element turns inside out on the way to the markers"};
+    case StatusCode::kNotPositiveDefinite:
+      return {status.code(), "the model is unstable near the markers"};
+    case StatusCode::kUnobservable:
+      return {status.code(), "the markers determine none of the forces"};
+    default: return status;
+  }
+}
+
 }  // namespace
 
 class MarkerForceEstimator::Impl {
@@ -84,7 +100,7 @@ class MarkerForceEstimator::Impl {
     estimate_.iterations = 0;
     estimate_.frame_error = 0.0;
     published_ = false;
-    estimate_.status = Process(frame);
+    estimate_.status = WithReason(Process(frame));
     if (published_) CommitHistory();
     if (!published_) Withdraw();
     return estimate_;
@@ -103,7 +119,7 @@ class MarkerForceEstimator::Impl {
   bool Searches() const { return sites_.empty(); }
   bool StandsOnContact(const robot::BodyMarker& marker) const;
   Status Process(const MarkerFrame& frame);
-  void RememberReference(const MarkerFrame& frame);
+  void FollowReference(const MarkerFrame& frame);
   void CommitHistory();
   Status CheckFrame(const MarkerFrame& frame) const;
   void SetPoseColumns(const MarkerFrame& frame);
@@ -205,23 +221,23 @@ Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   if (frame.reference != ReferenceShape::kNone) {
     offsets_.Add(frame);
-    RememberReference(frame);
+    FollowReference(frame);
     return {StatusCode::kNoCalibration, "reference frame: marker offsets are being set"};
   }
   if (Status status = offsets_.Finish(); !status.ok()) return status;
   if (Status status = FollowLoads(frame); !status.ok()) return status;
   if (Status status = SetTargets(frame); !status.ok()) return status;
   if (!history_.active()) return Searches() ? SearchSites(frame) : FitGivenSites(frame);
-  MarkerFrame remembered = frame;
-  remembered.cables = history_.Prepare(frame.t_s, frame.cables);
+  MarkerFrame as_driven = frame;
+  as_driven.cables = history_.Prepare(frame.t_s, frame.cables);
   fitter_.ForgetFactor();
   free_inputs_.reset();
-  return Searches() ? SearchSites(remembered) : FitGivenSites(remembered);
+  return Searches() ? SearchSites(as_driven) : FitGivenSites(as_driven);
 }
 
 /// A body that is held in its undeformed shape relaxes there. One that is free is where its first
 /// frame finds it.
-void MarkerForceEstimator::Impl::RememberReference(const MarkerFrame& frame) {
+void MarkerForceEstimator::Impl::FollowReference(const MarkerFrame& frame) {
   if (!history_.active()) return;
   history_.Prepare(frame.t_s, frame.cables);
   if (frame.reference != ReferenceShape::kUndeformed) return;

@@ -23,14 +23,19 @@ double Between(double from, double to, double fraction) {
 
 }  // namespace
 
-ActuatorChain::ActuatorChain(const std::vector<std::string>& cable_names, const Effects& effects)
-    : cable_of_actuator_(cable_names.size()) {
-  const auto count = Index(cable_names.size());
+ActuatorChain::ActuatorChain(const std::vector<robot::BodyCable>& cables, const Effects& effects)
+    : cable_of_actuator_(cables.size()) {
+  const auto count = Index(cables.size());
   std::iota(cable_of_actuator_.begin(), cable_of_actuator_.end(), 0);
   coupling_ = Eigen::MatrixXd::Identity(count, count);
   gain_ = Eigen::VectorXd::Ones(count);
   offset_m_ = Eigen::VectorXd::Zero(count);
   play_m_ = Eigen::VectorXd::Zero(count);
+  std::vector<std::string> cable_names;
+  for (const robot::BodyCable& cable : cables) {
+    play_m_[Index(cable_names.size())] = cable.play_m;
+    cable_names.push_back(cable.name);
+  }
   for (const auto* effect : OfKind(effects, "swapped_cables")) {
     const std::vector<int> two = PlacesOf(*effect, "cable", cable_names, 2);
     std::swap(cable_of_actuator_[At(two[0])], cable_of_actuator_[At(two[1])]);

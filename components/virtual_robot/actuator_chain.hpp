@@ -10,16 +10,18 @@
 
 #include "components/virtual_robot/effects.hpp"
 #include "libs/core/index.hpp"
+#include "libs/robot/robot_body.hpp"
 
 namespace palpate::virtual_robot {
 
 /// From the commands to how much cable the actuators take in: swapped_cables, drive_coupling,
-/// lag (a delay, then a first order), cable_gain, cable_offset, backlash (play operator), in this
-/// order. Drive r is the one that the robot file names like cable r. NaN: not driven.
+/// lag (a delay, then a first order), cable_gain, cable_offset, backlash (play operator, beside
+/// the play of the robot file), in this order. Drive r is the one that the robot file names like
+/// cable r. NaN: not driven.
 class ActuatorChain {
  public:
   /// Throws InputError where an effect does not fit the cables.
-  ActuatorChain(const std::vector<std::string>& cable_names, const Effects& effects);
+  ActuatorChain(const std::vector<robot::BodyCable>& cables, const Effects& effects);
 
   /// At rest at these commands [cables] since ever, the play in the middle.
   void Reset(double t_s, const Eigen::VectorXd& command_m);

@@ -181,7 +181,8 @@ BenchBody MakeBenchBody(const robot::RobotDescription& robot, const scenario::Bo
   body.materials = std::move(made.materials);
   body.material_of_cell = std::move(made.material_of_cell);
   body.region_names = std::move(made.region_names);
-  body.prony = truth.prony;
+  body.prony = truth.prony.empty() ? made.creep : truth.prony;
+  body.softening = made.softening;
   body.fixed = std::move(made.fixed);
   body.gravity_m_s2 = made.gravity_m_s2;
   body.cables = std::move(made.cables);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "libs/fem/boundary_surface.hpp"
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/material.hpp"
+#include "libs/fem/mullins.hpp"
+#include "libs/fem/prony_term.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
@@ -30,7 +33,8 @@ struct BenchBody {
   std::vector<fem::Material> materials;  ///< 0: the body's; k + 1: of region k
   std::vector<int> material_of_cell;
   std::vector<std::string> region_names;
-  std::vector<scenario::PronyTerm> prony;
+  std::vector<fem::PronyTerm> prony;         ///< of all materials
+  std::optional<fem::MullinsLaw> softening;  ///< of all materials; none: they do not soften
   double density_kg_m3 = 0.0;  ///< of the body as drawn; a mass per node counts as spread evenly
   fem::FixedDirections fixed;
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "libs/core/error.hpp"
+
 namespace palpate::virtual_robot {
 
 namespace {
@@ -46,6 +48,13 @@ void AddCreep(const ActiveEffect& effect, BenchBody* body) {
   if (g > 0.0) body->prony.push_back({g, tau_s});
 }
 
+/// In the place of what the robot file has.
+void SetSoftening(const ActiveEffect& effect, BenchBody* body) {
+  const fem::MullinsLaw law{.r = PositiveValue(effect, "r"), .m_J_m3 = PositiveValue(effect, "m")};
+  if (!(law.r > 1.0)) throw InputError("effect mullins: r must be greater than 1");
+  body->softening = law;
+}
+
 const std::map<std::string, void (*)(const ActiveEffect&, BenchBody*)>& Handlers() {
   static const std::map<std::string, void (*)(const ActiveEffect&, BenchBody*)> handlers = {
       {"youngs_modulus", ScaleBody},
@@ -53,7 +62,8 @@ const std::map<std::string, void (*)(const ActiveEffect&, BenchBody*)>& Handlers
       {"poissons_ratio", SetPoissonsRatio},
       {"stiffening", Stiffen},
       {"density", ScaleDensity},
-      {"viscoelastic_creep", AddCreep}};
+      {"viscoelastic_creep", AddCreep},
+      {"mullins", SetSoftening}};
   return handlers;
 }
 

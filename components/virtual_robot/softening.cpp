@@ -9,22 +9,19 @@
 
 namespace palpate::virtual_robot {
 
-Softening::Softening(const fem::TetMesh& mesh, const Effects& effects, double duration_s)
-    : duration_s_(duration_s),
-      volume_m3_(fem::CellVolumes_m3(mesh)),
-      damage_(Eigen::VectorXd::Ones(mesh.CellCount())),
+Softening::Softening(const BenchBody& body, const Effects& effects, double duration_s)
+    : mullins_(body.softening),
+      duration_s_(duration_s),
+      volume_m3_(fem::CellVolumes_m3(body.mesh)),
+      damage_(Eigen::VectorXd::Ones(body.mesh.CellCount())),
       left_damage_(damage_),
-      largest_J_m3_(Eigen::VectorXd::Zero(mesh.CellCount())),
+      largest_J_m3_(Eigen::VectorXd::Zero(body.mesh.CellCount())),
       factor_(Eigen::VectorXd::Ones(mesh.CellCount())) {
   for (const auto* effect : OfKind(effects, "temperature")) {
     temperature_change_ += Value(*effect, "relative_E_change_at_end");
   }
   if (!(temperature_change_ > -1.0)) {
     throw InputError("effect temperature: relative_E_change_at_end must be greater than -1");
-  }
-  for (const auto* effect : OfKind(effects, "mullins")) {
-    mullins_ = fem::MullinsLaw{PositiveValue(*effect, "r"), PositiveValue(*effect, "m")};
-    if (!(mullins_->r > 1.0)) throw InputError("effect mullins: r must be greater than 1");
   }
 }
 

@@ -6,10 +6,10 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "components/virtual_robot/bench_body.hpp"
 #include "components/virtual_robot/effects.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/mullins.hpp"
-#include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -24,7 +24,7 @@ namespace palpate::virtual_robot {
 class Softening {
  public:
   /// `duration_s` > 0: after which the temperature is at its end. Throws InputError.
-  Softening(const fem::TetMesh& mesh, const Effects& effects, double duration_s);
+  Softening(const BenchBody& body, const Effects& effects, double duration_s);
 
   bool active() const { return mullins_.has_value() || temperature_change_ != 0.0; }
   bool answers_strain() const { return mullins_.has_value(); }

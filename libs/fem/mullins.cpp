@@ -10,14 +10,19 @@
 
 namespace palpate::fem {
 
+double Damage(const MullinsLaw& law, double below_J_m3) {
+  return 1.0 - std::erf(below_J_m3 / law.m_J_m3) / law.r;
+}
+
 double StepDamage(const MullinsLaw& law, const Eigen::VectorXd& density_J_m3,
                   Eigen::VectorXd* largest_J_m3, Eigen::VectorXd* damage) {
   double most_off = 0.0;
   *largest_J_m3 = largest_J_m3->cwiseMax(density_J_m3);
   for (Eigen::Index cell = 0; cell < density_J_m3.size(); ++cell) {
     double& eta = (*damage)[cell];
-    const double below = ((*largest_J_m3)[cell] - density_J_m3[cell]) / law.m_J_m3;
-    const double wanted = 1.0 - std::erf(below) / law.r;
+    const double below_J_m3 = (*largest_J_m3)[cell] - density_J_m3[cell];
+    const double wanted = Damage(law, below_J_m3);
+    const double below = below_J_m3 / law.m_J_m3;
     const double answer = 4.0 * std::numbers::inv_sqrtpi * std::exp(-below * below) *
                           density_J_m3[cell] / (law.r * law.m_J_m3 * eta);
     most_off = std::max(most_off, std::abs(wanted - eta));

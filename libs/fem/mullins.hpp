@@ -21,10 +21,13 @@ struct MullinsLaw {
   bool operator==(const MullinsLaw&) const = default;
 };
 
+/// eta of an element whose energy density lies `below_J_m3` >= 0 below its largest so far.
+double Damage(const MullinsLaw& law, double below_J_m3);
+
 /// A step of the damage eta [cells] towards what the law asks for at the energy densities
-/// `density_J_m3` [cells] of the undamaged material, whose largest so far are in `largest_J_m3`.
-/// The step is the shorter the more the energies answer under a given load, as 1 / eta^2. Returns
-/// by how much the worst cell was off.
+/// `density_J_m3` [cells] of the undamaged material. `largest_J_m3` [cells] holds the largest so
+/// far, and is raised to these. The step is the shorter the more the energies answer under a given
+/// load, as 1 / eta^2. Returns by how much the worst cell was off.
 double StepDamage(const MullinsLaw& law, const Eigen::VectorXd& density_J_m3,
                   Eigen::VectorXd* largest_J_m3, Eigen::VectorXd* damage);
 

@@ -4,6 +4,7 @@
 #include "libs/robot/history_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -95,18 +96,26 @@ class HistoryState::Eyelets {
  private:
   /// About the last shape, where the commands have gone far since, or other cables are taut.
   void RenewSlides(const std::vector<CableCommand>& commands) {
-    const Eigen::VectorXd step = StepOf(commands_, commands);
-    if (step.isZero(0.0) && slides_.IsKnown()) return;
-    const bool near = slides_.IsKnown() &&
-                      StepOf(slides_at_, commands).cwiseAbs().maxCoeff() < tuning_.renew_slides_m &&
-                      Taut() == taut_;
-    if (near) return;
+    if (slides_.IsKnown()) {
+      if (StepOf(commands_, commands).isZero(0.0)) return;
+      if (AreNear(slides_at_, commands) && Taut() == taut_) return;
+    }
     SetFriction(sliding_);
     EyeletSlides slides = SlidesAbout(eyelets_, commands_, state_, model_, &sensitivity_);
     if (!slides.IsKnown()) return;
     slides_ = std::move(slides);
     slides_at_ = commands_;
     taut_ = Taut();
+  }
+
+  bool AreNear(const std::vector<CableCommand>& one, const std::vector<CableCommand>& other) const {
+    const Eigen::VectorXd step = StepOf(one, other);
+    for (std::size_t c = 0; c < one.size(); ++c) {
+      const bool by_tension = one[c].kind == Kind::kTension;
+      const double most = by_tension ? tuning_.renew_slides_N : tuning_.renew_slides_m;
+      if (std::abs(step[ToIndex(c)]) >= most) return false;
+    }
+    return true;
   }
 
   std::vector<bool> Taut() const {
@@ -161,9 +170,9 @@ class HistoryState::Eyelets {
 
 /// Creep and softening. What creep has left of the past is a stress that stays with the material.
 /// Its force is a dead load of the frame, and what creep adds at once is part of the cell factors.
-class HistoryState::Memory {
+class HistoryState::Material {
  public:
-  explicit Memory(RobotModel& model)
+  explicit Material(RobotModel& model)
       : model_(model),
         creep_(model.body().mesh, model.body().material_of_cell, model.body().creep, 0.0),
         softening_(model.body().softening),
@@ -174,14 +183,16 @@ class HistoryState::Memory {
   void Restart() {
     began_ = false;
     damage_.setOnes(volume_m3_.size());
-    largest_J_m3_.setZero(volume_m3_.size());
     scale_ = 1.0;
     model_.SetHistoryForce({});
     model_.elastic_body().SetCellFactors(damage_);
   }
 
   void Prepare(double t_s) {
-    if (!began_) return;
+    if (!began_) {
+      BeginSoftened(t_s);
+      return;
+    }
     const double step_s = t_s - t_s_;
     if (creep_.active() && step_s > 0.0) {
       creep_.Prepare(step_s);
@@ -200,25 +211,42 @@ class HistoryState::Memory {
     } else if (t_s > t_s_) {
       creep_.Advance(materials, damage_, x_m, t_s - t_s_);
     }
-    if (softening_) {
-      Eigen::VectorXd energy_J;
-      model_.elastic_body().CellEnergies(x_m, &energy_J);
-      const Eigen::VectorXd undamaged_m3 = scale_ * damage_.cwiseProduct(volume_m3_);
-      fem::StepDamage(*softening_, energy_J.cwiseQuotient(undamaged_m3), &largest_J_m3_, &damage_);
-    }
+    if (softening_) Soften(t_s, x_m);
     began_ = true;
     t_s_ = t_s;
     x_m_ = x_m;
   }
 
  private:
+  /// At rest, as far as the sequences before have softened it: those of an earlier time.
+  void BeginSoftened(double t_s) {
+    if (!softening_) return;
+    StrainHistory& strained = model_.strain_history();
+    const Eigen::Index cells = volume_m3_.size();
+    if (t_s < strained.t_s || strained.largest_J_m3.size() != cells) {
+      strained = {.largest_J_m3 = Eigen::VectorXd::Zero(cells)};
+    }
+    damage_ = strained.largest_J_m3.unaryExpr(
+        [&](double largest_J_m3) { return fem::Damage(*softening_, largest_J_m3); });
+    model_.elastic_body().SetCellFactors(damage_);
+  }
+
+  void Soften(double t_s, const Eigen::VectorXd& x_m) {
+    Eigen::VectorXd energy_J;
+    model_.elastic_body().CellEnergies(x_m, &energy_J);
+    const Eigen::VectorXd undamaged_m3 = scale_ * damage_.cwiseProduct(volume_m3_);
+    StrainHistory& strained = model_.strain_history();
+    fem::StepDamage(*softening_, energy_J.cwiseQuotient(undamaged_m3), &strained.largest_J_m3,
+                    &damage_);
+    strained.t_s = t_s;
+  }
+
   RobotModel& model_;
   fem::Viscosity creep_;
   std::optional<fem::MullinsLaw> softening_;
-  Eigen::VectorXd volume_m3_;     ///< [elements]
-  Eigen::VectorXd damage_;        ///< [elements] eta
-  Eigen::VectorXd largest_J_m3_;  ///< [elements] W_max
-  double scale_ = 1.0;            ///< by creep, of the frame that was prepared
+  Eigen::VectorXd volume_m3_;  ///< [elements]
+  Eigen::VectorXd damage_;     ///< [elements] eta
+  double scale_ = 1.0;         ///< by creep, of the frame that was prepared
   bool began_ = false;
   double t_s_ = 0.0;     ///< of the last shape
   Eigen::VectorXd x_m_;  ///< [3n] the last shape
@@ -230,7 +258,7 @@ HistoryState::HistoryState(RobotModel& model, const HistoryTuning& tuning)
               model.body().softening.has_value()) {
   if (HasFriction(model.body())) eyelets_ = std::make_unique<Eyelets>(model, tuning);
   if (!model.body().creep.empty() || model.body().softening)
-    memory_ = std::make_unique<Memory>(model);
+    material_ = std::make_unique<Material>(model);
 }
 
 HistoryState::~HistoryState() = default;
@@ -238,7 +266,7 @@ HistoryState::~HistoryState() = default;
 void HistoryState::Restart() {
   began_ = false;
   if (eyelets_) eyelets_->Restart();
-  if (memory_) memory_->Restart();
+  if (material_) material_->Restart();
 }
 
 const std::vector<CableCommand>& HistoryState::Prepare(double t_s,
@@ -257,14 +285,14 @@ const std::vector<CableCommand>& HistoryState::Prepare(double t_s,
   began_ = true;
   t_s_ = t_s;
   if (eyelets_) eyelets_->Prepare(commands_);
-  if (memory_) memory_->Prepare(t_s);
+  if (material_) material_->Prepare(t_s);
   return commands_;
 }
 
 void HistoryState::Commit(const Eigen::VectorXd& x_m, const Eigen::VectorXd& tension_N) {
   PALPATE_CHECK(began_);
   if (eyelets_) eyelets_->Commit(commands_, x_m, tension_N);
-  if (memory_) memory_->Commit(t_s_, x_m);
+  if (material_) material_->Commit(t_s_, x_m);
 }
 
 }  // namespace palpate::robot

@@ -16,24 +16,27 @@ struct HistoryTuning {
   /// computed again, which costs a factorisation. Larger: fewer; smaller: truer where it bends
   /// much.
   double renew_slides_m = 5e-4;
+  double renew_slides_N = 0.1;  ///< the same of commanded tensions
 };
 
-/// What a robot remembers, followed from frame to frame: the play of its actuators, where its
-/// cables stick and slide (sticking.hpp), creep (fem/viscosity.hpp) and softening (fem/mullins.hpp)
-/// of its material, as its body has them (RobotBody). Between frames commands go straight, and a
-/// frame that is left out is a longer step.
+/// What the past does to a robot, followed from frame to frame: the play of its actuators, where
+/// its cables stick and slide (sticking.hpp), creep (fem/viscosity.hpp) and softening
+/// (fem/mullins.hpp) of its material, as its body has them (RobotBody). Between frames commands go
+/// straight, and a frame that is left out is a longer step.
 ///
-/// It begins relaxed at the first posture of a sequence, with the play in its middle, nothing slid
-/// yet, and a material that was never strained more than there.
+/// A sequence begins relaxed at its first posture, with the play in its middle and nothing slid
+/// yet. The material is as soft as the sequences before it in time have left it
+/// (RobotModel::strain_history). A sequence of an earlier time begins with one never strained.
 class HistoryState {
  public:
   /// Brings `model`, which must outlive it, to that beginning. Does nothing where !active().
   explicit HistoryState(RobotModel& model, const HistoryTuning& tuning = {});
   ~HistoryState();
 
-  /// Whether the robot remembers anything. Without, commands pass and the model stays as it is.
+  /// Whether the robot has play, friction, creep or softening. Without, commands pass and the model
+  /// stays as it is.
   bool active() const { return active_; }
-  /// Back to the beginning: of another sequence.
+  /// Back to the beginning of another sequence.
   void Restart();
 
   /// The commands as they reach the cables in a frame at `t_s`, s. Sets friction, cell factors and
@@ -46,7 +49,7 @@ class HistoryState {
 
  private:
   class Eyelets;
-  class Memory;
+  class Material;
 
   RobotModel& model_;
   bool active_;
@@ -54,7 +57,7 @@ class HistoryState {
   bool began_ = false;
   std::vector<CableCommand> commands_;  ///< as they reach the cables
   std::unique_ptr<Eyelets> eyelets_;    ///< or nothing: no cable rubs
-  std::unique_ptr<Memory> memory_;      ///< or nothing: the material remembers nothing
+  std::unique_ptr<Material> material_;  ///< or nothing: neither creep nor softening
 };
 
 }  // namespace palpate::robot

@@ -56,8 +56,8 @@ struct RobotBody {
   double nominal_poissons_ratio = 0.0;
   std::vector<int> material_of_cell;      ///< [elements] index into materials
   std::vector<std::string> region_names;  ///< in the order of the robot file
-  /// What all materials remember (history_state.hpp); static equilibria are of a relaxed body that
-  /// was not strained before.
+  /// Of all materials (history_state.hpp); static equilibria are of a relaxed body that was not
+  /// strained before.
   std::vector<fem::PronyTerm> creep;
   std::optional<fem::MullinsLaw> softening;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,6 +59,13 @@ struct CableState {
 struct DeadLoad {
   fem::InterpolationWeights weights;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+};
+
+/// What softens a material for good (fem/mullins.hpp), until another robot takes its place.
+struct StrainHistory {
+  double t_s = -std::numeric_limits<double>::infinity();  ///< of the last posture, s
+  Eigen::VectorXd
+      largest_J_m3;  ///< [elements] largest energy density so far; empty: never strained
 };
 
 /// A robot to compute with: body, cables and solvers, put together from a RobotBody. Static
@@ -119,9 +127,12 @@ class RobotModel {
   void SetGravity(const Eigen::Vector3d& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
   const Eigen::Vector3d& gravity_m_s2() const { return gravity_m_s2_; }
 
-  /// A nodal dead load [3n] that goes with the weight from now on: of what the material remembers
+  /// A nodal dead load [3n], N, that goes with the weight from now on: of the history variables
   /// (history_state.hpp). Empty: none.
   void SetHistoryForce(Eigen::VectorXd force_N) { history_force_N_ = std::move(force_N); }
+
+  /// Outlives the HistoryState that follows it: a sequence of frames begins where the last ended.
+  StrainHistory& strain_history() { return strain_history_; }
 
   /// Adds each node's weight, and the history force, to `force_N` [3n].
   void AddWeight(Eigen::VectorXd& force_N) const;
@@ -151,6 +162,7 @@ class RobotModel {
   Eigen::Vector3d gravity_m_s2_;
   std::vector<DriveCalibration> drives_;  ///< [cables]
   Eigen::VectorXd history_force_N_;       ///< [3n], or empty
+  StrainHistory strain_history_;
 };
 
 }  // namespace palpate::robot

@@ -31,7 +31,7 @@ struct BodyTruth {
   std::optional<double> poissons_ratio;
   double c20_over_c10 = 0.0;  ///< yeoh only
   double c30_over_c10 = 0.0;
-  std::vector<PronyTerm> prony;
+  std::vector<PronyTerm> prony;  ///< empty: creep of the robot file
 };
 
 enum class MotionMode { kQuasiStatic, kDynamic };

@@ -108,14 +108,14 @@ const KeyTable& BodyKeys() {
   static const KeyTable keys{
       .title = "body",
       .about = "The virtual robot's body where it differs from the robot file.",
-      .keys = {
-          {"mesh_file", value::File(), kOfRobotFile,
-           "Mesh. Unit and placement are those of the mesh of the robot file."},
-          {"refine", value::WholeNumber(0, 2), Default(BodyTruth{}.refine),
-           "How often each tetrahedron is cut in eight."},
-          {"element", value::Choice({"tet4", "tet10"}), kOfRobotFile, "Finite element."},
-          {"material", value::Map(BodyMaterialKeys()), kOfRobotFile, "Elasticity."},
-          {"prony", value::ListOfMaps(PronyKeys()), kOptional, "Viscoelasticity. Absent: none."}}};
+      .keys = {{"mesh_file", value::File(), kOfRobotFile,
+                "Mesh. Unit and placement are those of the mesh of the robot file."},
+               {"refine", value::WholeNumber(0, 2), Default(BodyTruth{}.refine),
+                "How often each tetrahedron is cut in eight."},
+               {"element", value::Choice({"tet4", "tet10"}), kOfRobotFile, "Finite element."},
+               {"material", value::Map(BodyMaterialKeys()), kOfRobotFile, "Elasticity."},
+               {"prony", value::ListOfMaps(PronyKeys()), kOptional,
+                "Viscoelasticity. Absent: `material.creep` of the robot file."}}};
   return keys;
 }
 

@@ -19,22 +19,24 @@ namespace {
 /// density as m is searched at, z[1] ln of how many times that m is. Data that tell little of where
 /// softening ends tell z[0] all the same; of 1 / r they would only tell what it is if m were known,
 /// and about every m another share of that. What it does at a sample is a force: that of the
-/// softened elements, as far as they are. What the energies then answer is left out.
+/// softened elements, as far as they are. What the energies then answer is left out. 1 / r adds to
+/// that of a robot file that softens, whose m is then searched at.
 class Mullins final : public FaultModel {
  public:
-  explicit Mullins(double m_J_m3)
+  Mullins(double m_J_m3, double inverse_r)
       : FaultModel({"mullins", {"body"}}, "strain softening of the body (Mullins effect)",
                    {{.name = "softening", .fault = 0.4, .least = 0.0, .most = 1.0},
                     {.name = "m",
                      .nominal = m_J_m3,
                      .fault = 0.6,
                      .scale = FaultParameter::Scale::kFactor,
-                     .qualifies = true}}) {}
+                     .qualifies = true}}),
+        inverse_r_(inverse_r) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     if (z[0] > 0.0) {
       hypothesis->mullins =
-          MullinsSoftening{std::min(1.0, z[0] / Reach(z[1])), parameters()[1].ValueOf(z[1])};
+          MullinsSoftening{std::min(1.0, InverseR(z)), parameters()[1].ValueOf(z[1])};
     }
   }
 
@@ -43,7 +45,7 @@ class Mullins final : public FaultModel {
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
     constexpr double kLeast = 1.001;
     if (z[0] > 0.0) {
-      robot->softening = fem::MullinsLaw{.r = std::max(kLeast, Reach(z[1]) / z[0]),
+      robot->softening = fem::MullinsLaw{.r = std::max(kLeast, 1.0 / InverseR(z)),
                                          .m_J_m3 = parameters()[1].ValueOf(z[1])};
     }
     return true;
@@ -68,7 +70,7 @@ class Mullins final : public FaultModel {
         below.unaryExpr([](double u) { return std::erf(u); }).rowwise().mean() / reach;
     if (parameter == 1) {
       softer *= -z[0] * ReachChange(z[1]) / reach;
-      softer -= 2.0 * std::numbers::inv_sqrtpi * z[0] / reach *
+      softer -= 2.0 * std::numbers::inv_sqrtpi * InverseR(z) *
                 (below * (-below.square()).exp()).rowwise().mean().matrix();
     }
     return robot::NodalForce(ForceOf(softer, at));
@@ -80,19 +82,22 @@ class Mullins final : public FaultModel {
     constexpr double kLeast = 1e-6;  // of 1 / r
     const TwoParameters both{z, covariance, parameters()[1].least, parameters()[1].most};
     const auto inverse_below = [&](double probability) {
-      return std::max(kLeast, Quantile(probability, both, 1.0, [](double inverse, double z_m) {
-                        return inverse * Reach(z_m);
-                      }));
+      const double added =
+          Quantile(probability, both, 1.0 - inverse_r_,
+                   [](double inverse, double z_m) { return inverse * Reach(z_m); });
+      return std::max(kLeast, inverse_r_ + added);
     };
     report[0] = {.name = "r",
-                 .value = std::max(1.0, Reach(z[1]) / z[0]),
+                 .value = std::max(1.0, 1.0 / InverseR(z)),
                  .ci95_low = 1.0 / inverse_below(0.975),
                  .ci95_high = 1.0 / inverse_below(0.025)};
     return report;
   }
 
  private:
-  /// r times z[0], and its derivative.
+  double InverseR(const Eigen::VectorXd& z) const { return inverse_r_ + z[0] / Reach(z[1]); }
+
+  /// z[0] over what it adds to 1 / r, and its derivative.
   static double Reach(double z_m) { return std::erf(std::exp(-z_m)); }
   static double ReachChange(double z_m) {
     const double u = std::exp(-z_m);
@@ -114,13 +119,19 @@ class Mullins final : public FaultModel {
     if (factor.size() > 0) body.SetCellFactors(factor);
     return more_N - once_N;
   }
+
+  double inverse_r_;  ///< of the robot file
 };
 
 }  // namespace
 
-void MakeMullins(const CatalogueInputs& /*inputs*/, std::vector<FaultModelPtr>* faults) {
+void MakeMullins(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (const auto& law = inputs.body.softening) {
+    faults->push_back(std::make_unique<Mullins>(law->m_J_m3, 1.0 / law->r));
+    return;
+  }
   for (const double m_J_m3 : {30.0, 100.0, 300.0, 1000.0, 3000.0}) {
-    faults->push_back(std::make_unique<Mullins>(m_J_m3));
+    faults->push_back(std::make_unique<Mullins>(m_J_m3, 0.0));
   }
 }
 

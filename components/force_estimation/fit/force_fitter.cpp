@@ -9,6 +9,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/text.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
@@ -485,9 +486,14 @@ Status ForceFitter::Conclude() {
 Status ForceFitter::CheckTensions(const ModelState& state) const {
   for (int c = 0; c < model_.CableCount(); ++c) {
     const double tension_N = state.lambda_a_N[c];
-    if (tension_N < -most_push_N_) return {StatusCode::kNotConverged, {}};
-    if (tension_N > model_.body().cables[At(c)].max_tension_N) {
-      return {StatusCode::kTensionLimit, {}};
+    const robot::BodyCable& cable = model_.body().cables[At(c)];
+    if (tension_N < -most_push_N_) {
+      return {StatusCode::kNotConverged, "cable " + cable.name + " would have to push"};
+    }
+    if (tension_N > cable.max_tension_N) {
+      return {StatusCode::kTensionLimit, "cable " + cable.name + " would have to pull with " +
+                                             FormatNumber(tension_N) +
+                                             " N, more than its max_tension_N"};
     }
   }
   return Status::Ok();

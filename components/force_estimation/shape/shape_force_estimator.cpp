@@ -122,10 +122,10 @@ Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   ForgetBefore(frame);
   if (!history_.active()) return frame.untouched ? Learn(frame) : Estimate(frame);
-  ShapeFrame remembered = frame;
-  remembered.cables = history_.Prepare(frame.t_s, frame.cables);
+  ShapeFrame as_driven = frame;
+  as_driven.cables = history_.Prepare(frame.t_s, frame.cables);
   fit_.ForgetFactor();
-  return frame.untouched ? Learn(remembered) : Estimate(remembered);
+  return frame.untouched ? Learn(as_driven) : Estimate(as_driven);
 }
 
 /// Frames that only have a predicted shape are left out: their forces are unknown.
