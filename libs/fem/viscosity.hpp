@@ -13,7 +13,7 @@
 
 namespace palpate::fem {
 
-/// What the material remembers: finite linear viscoelasticity on the second Piola-Kirchhoff stress
+/// The history of a material: finite linear viscoelasticity on the second Piola-Kirchhoff stress
 /// (J. C. Simo, On a fully three-dimensional finite-strain viscoelastic damage model, Comput.
 /// Methods Appl. Mech. Eng. 60, 1987),
 ///   S = S_inf + sum H_k,  H_k(t + h) = exp(-h/tau_k) H_k + g_k gamma_k (S_inf(t + h) - S_inf(t)),
@@ -27,7 +27,7 @@ class Viscosity {
   Viscosity(const TetMesh& mesh, const std::vector<int>& material_of_cell,
             std::vector<PronyTerm> prony, double stiffness_damping_s);
 
-  /// Whether there is anything to remember; without, scale() is 1 and history() is not used.
+  /// Whether it has a history; without, scale() is 1 and history() is not used.
   bool active() const { return !prony_.empty() || stiffness_damping_s_ > 0.0; }
   void BindTo(const StiffnessMatrix& stiffness) { history_.BindTo(stiffness); }
 

@@ -9,9 +9,11 @@
 #include "components/diagnosis/faults/catalogue.hpp"
 #include "components/diagnosis/forward/mesh_error.hpp"
 #include "components/diagnosis/forward/simulator.hpp"
+#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/test_folder.hpp"
 
 /// A robot file that was extended by a fault makes the robot that the fault makes.
 namespace palpate::diagnosis {
@@ -91,10 +93,71 @@ TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
               kOfEffect * effect_m)
         << cause->words();
   }
-  EXPECT_THAT(extended, testing::IsSupersetOf({"youngs_modulus", "regional_stiffness", "density",
-                                               "gravity_direction", "cable_routing",
-                                               "marker_misplacement", "poissons_ratio",
-                                               "swapped_cables", "stiffening", "discretisation"}));
+  EXPECT_THAT(extended,
+              testing::IsSupersetOf(
+                  {"youngs_modulus", "regional_stiffness", "density", "gravity_direction",
+                   "cable_routing", "marker_misplacement", "poissons_ratio", "swapped_cables",
+                   "stiffening", "discretisation", "viscoelastic_creep", "mullins", "backlash"}));
+}
+
+/// The file holds creep, softening and play as they were found.
+TEST_F(Extension, ReadsBackWithTheSameValues) {
+  robot::RobotDescription robot = robot_;
+  std::vector<robot::CalibratedDrive> drives;
+  const Simulation as_built = Simulator(observed_, 1).Run(NominalHypothesis(body_, observed_));
+  const CatalogueInputs world{
+      .body = body_,
+      .observed = observed_,
+      .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, as_built, 1)};
+  int creeps = 0;
+  int softens = 0;
+  int plays = 0;
+  for (const FaultModelPtr& cause : MakeFaultModels(world, {})) {
+    const std::string& id = cause->name().id;
+    const bool first = (id == "viscoelastic_creep" && creeps++ == 0) ||
+                       (id == "mullins" && softens++ == 0) || (id == "backlash" && plays++ == 0);
+    if (first) ASSERT_TRUE(cause->Extend(FaultOf(*cause), &robot, &drives)) << id;
+  }
+  ASSERT_EQ(robot.creep.size(), 1U);
+  ASSERT_TRUE(robot.softening);
+  ASSERT_GT(robot.cables[0].play_m, 0.0);
+  const test_support::TestFolder folder;
+  const auto file =
+      folder.Write("robot.extended.yaml", robot::FormatRobotFile(robot, folder.path()));
+  const robot::RobotDescription again = robot::ReadRobotFile(file, app::LoadYaml);
+  EXPECT_EQ(again.creep, robot.creep);
+  EXPECT_EQ(again.softening, robot.softening);
+  EXPECT_EQ(again.cables[0].play_m, robot.cables[0].play_m);
+  EXPECT_EQ(robot::FormatRobotFile(again, folder.path()),
+            robot::FormatRobotFile(robot, folder.path()));
+}
+
+/// Faults add to what a file has, and one of size zero leaves it.
+TEST_F(Extension, AddsToTheSofteningOfTheFile) {
+  robot::RobotDescription robot = robot_;
+  robot.softening = fem::MullinsLaw{.r = 4.0, .m_J_m3 = 250.0};
+  const robot::RobotBody body = robot::BuildRobotBody(robot);
+  const Simulation as_built = Simulator(observed_, 1).Run(NominalHypothesis(body, observed_));
+  const CatalogueInputs world{
+      .body = body,
+      .observed = observed_,
+      .mesh_error = CompareWithFinerMesh(robot, body, observed_, as_built, 1)};
+  int softens = 0;
+  for (const FaultModelPtr& cause : MakeFaultModels(world, {})) {
+    if (cause->name().id != "mullins") continue;
+    ++softens;
+    std::vector<robot::CalibratedDrive> drives;
+    robot::RobotDescription extended = robot;
+    cause->Extend(Eigen::Vector2d::Zero(), &extended, &drives);
+    EXPECT_EQ(extended.softening, robot.softening);
+    cause->Extend(Eigen::Vector2d(0.1, 0.0), &extended, &drives);
+    EXPECT_LT(extended.softening->r, 4.0);
+    EXPECT_EQ(extended.softening->m_J_m3, 250.0);
+    ModelHypothesis hypothesis = NominalHypothesis(body, observed_);
+    cause->Apply(Eigen::Vector2d(0.1, 0.0), &hypothesis);
+    EXPECT_NEAR(1.0 / hypothesis.mullins->inverse_r, extended.softening->r, 1e-12);
+  }
+  EXPECT_EQ(softens, 1);
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ TEST_F(FrameBudget, AFrameThatCannotBeFittedLeavesTheLastGoodState) {
   MarkerFrame bad = good_frame;
   bad.cables[0] = {Kind::kTension, 25.0};  // max_tension_N: 20
   EXPECT_EQ(estimator.Update(bad).status.code(), StatusCode::kTensionLimit);
+  EXPECT_NE(estimator.Update(bad).status.message().find("cable "), std::string::npos);
   EXPECT_EQ(estimator.last_good().x_m, good.x_m);
   const ForceEstimate& again = estimator.Update(good_frame);
   ASSERT_TRUE(again.status.ok());

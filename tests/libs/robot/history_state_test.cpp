@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/libs/robot/beam_model.hpp"
@@ -12,7 +13,7 @@
 namespace palpate::robot {
 namespace {
 
-/// What a robot with a memory does in frames that follow each other.
+/// History variables in frames that follow each other.
 class HistoryStateTest : public BeamModelTest {
  protected:
   /// The beam with these keys in its first cable, north, and in its material.
@@ -51,7 +52,7 @@ class HistoryStateTest : public BeamModelTest {
   fem::StaticState state_;
 };
 
-TEST_F(HistoryStateTest, LeavesARobotWithoutMemoryAsItIs) {
+TEST_F(HistoryStateTest, LeavesARobotWithoutThemAsItIs) {
   const auto model = With("");
   HistoryState history(*model);
   EXPECT_FALSE(history.active());
@@ -171,6 +172,108 @@ TEST_F(HistoryStateTest, FrictionMakesAHysteresis) {
   EXPECT_NEAR(smooth_N[1], smooth_N[0], 1e-4 * smooth_N[0]);
   EXPECT_GT(rough_N[0], 1.001 * smooth_N[0]);
   EXPECT_LT(rough_N[1], 0.999 * smooth_N[1]);
+}
+
+/// Work of the actuator in a closed cycle of the command, and the largest energy on the way, J.
+struct Cycle {
+  double work_J = 0.0;
+  double most_J = 0.0;
+};
+
+/// What is lost in a cycle is never gained.
+TEST_F(HistoryStateTest, NoEffectGivesEnergyInAClosedCycle) {
+  const auto cycle = [&](const std::string& cable, const std::string& material) {
+    const auto model = With(cable, material);
+    HistoryState history(*model);
+    state_ = model->RestState();
+    Cycle of;
+    double tension_N = Follow(0.0, 0.0, model.get(), &history).multipliers_N[0];
+    double displacement_m = 0.0;
+    for (int frame = 1; frame <= 24; ++frame) {
+      const double next_m = 5e-4 * (frame <= 12 ? frame : 24 - frame);
+      const double next_N = Follow(0.1 * frame, next_m, model.get(), &history).multipliers_N[0];
+      of.work_J += 0.5 * (tension_N + next_N) * (next_m - displacement_m);
+      of.most_J = std::max(of.most_J, of.work_J);
+      tension_N = next_N;
+      displacement_m = next_m;
+    }
+    return of;
+  };
+  const Cycle elastic = cycle("", "");
+  EXPECT_NEAR(elastic.work_J, 0.0, 1e-4 * elastic.most_J);
+  const Cycle with_play = cycle(", play_m: 0.001", "");
+  EXPECT_GE(with_play.work_J, -1e-4 * with_play.most_J);
+  for (const Cycle& lossy :
+       {cycle(", friction_coefficient: 0.3", ""), cycle("", ", creep: [{share: 0.3, time_s: 1}]"),
+        cycle("", ", softening: {r: 2, m_J_m3: 20}")}) {
+    EXPECT_GT(lossy.work_J, 1e-3 * lossy.most_J);
+  }
+}
+
+/// The equilibrium of a command that is held tends to that of a robot that does not creep.
+TEST_F(HistoryStateTest, CreepRelaxesToItsLongTimeValue) {
+  const auto tension_N = [&](const std::string& material, const std::vector<double>& t_s) {
+    const auto model = With("", material);
+    HistoryState history(*model);
+    state_ = model->RestState();
+    Follow(0.0, 0.0, model.get(), &history);
+    double held_N = 0.0;
+    for (const double at_s : t_s)
+      held_N = Follow(at_s, 0.004, model.get(), &history).multipliers_N[0];
+    return held_N;
+  };
+  const std::string creeps = ", creep: [{share: 0.3, time_s: 2}]";
+  const double elastic_N = tension_N("", {0.1});
+  EXPECT_GT(tension_N(creeps, {0.1}), 1.1 * elastic_N);
+  EXPECT_NEAR(tension_N(creeps, {0.1, 5.0, 40.0, 80.0, 120.0}), elastic_N, 1e-3 * elastic_N);
+}
+
+/// A sequence begins as soft as the one before it in time has left the material.
+TEST_F(HistoryStateTest, SofteningOutlivesASequence) {
+  const auto model = With("", ", softening: {r: 2, m_J_m3: 20}");
+  const auto pulled_N = [&](double begin_s, double displacement_m) {
+    HistoryState history(*model);
+    state_ = model->RestState();
+    double tension_N = 0.0;
+    for (int frame = 0; frame <= 12; ++frame) {
+      const double share = std::min(1.0, 0.1 * frame);
+      tension_N = Follow(begin_s + 0.1 * frame, share * displacement_m, model.get(), &history)
+                      .multipliers_N[0];
+    }
+    return tension_N;
+  };
+  const double virgin_N = pulled_N(0.0, 0.003);
+  pulled_N(10.0, 0.006);
+  const double softened_N = pulled_N(20.0, 0.003);
+  EXPECT_LT(softened_N, 0.97 * virgin_N);
+  EXPECT_NEAR(pulled_N(30.0, 0.003), softened_N, 1e-3 * softened_N);
+  EXPECT_NEAR(pulled_N(0.0, 0.003), virgin_N, 1e-6 * virgin_N);  // an earlier time: from the start
+}
+
+/// Effects that vanish leave the tensions of a robot without them.
+TEST_F(HistoryStateTest, VanishingEffectsChangeNothing) {
+  const auto tensions_N = [&](const std::string& cable, const std::string& material) {
+    const auto model = With(cable, material);
+    HistoryState history(*model);
+    state_ = model->RestState();
+    Eigen::VectorXd tension_N(9);
+    for (int frame = 0; frame < 9; ++frame) {
+      const double displacement_m = 1e-3 * (frame <= 5 ? frame : 10 - frame);
+      tension_N[frame] =
+          Follow(0.1 * frame, displacement_m, model.get(), &history).multipliers_N[0];
+    }
+    return tension_N;
+  };
+  const Eigen::VectorXd plain_N = tensions_N("", "");
+  const double most_N = 1e-6 * plain_N.maxCoeff();
+  EXPECT_EQ(tensions_N(", play_m: 0, friction_coefficient: 0", ""), plain_N);
+  EXPECT_LT((tensions_N(", play_m: 1e-11", "") - plain_N).cwiseAbs().maxCoeff(), most_N);
+  EXPECT_LT((tensions_N(", friction_coefficient: 1e-8", "") - plain_N).cwiseAbs().maxCoeff(),
+            most_N);
+  EXPECT_LT((tensions_N("", ", creep: [{share: 1e-8, time_s: 1}]") - plain_N).cwiseAbs().maxCoeff(),
+            most_N);
+  EXPECT_LT((tensions_N("", ", softening: {r: 1e9, m_J_m3: 20}") - plain_N).cwiseAbs().maxCoeff(),
+            most_N);
 }
 
 TEST_F(HistoryStateTest, EarlierTimesBeginASequence) {

@@ -122,6 +122,9 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
   EXPECT_NEAR(extended.material.youngs_modulus_Pa, value * nominal.material.youngs_modulus_Pa, 1.0);
   EXPECT_EQ(Palpate({"info", (folder_ / "out/robot.extended.yaml").string()}, folder_ / "info.log"),
             0);
+  EXPECT_THAT(ReadFile(folder_ / "out/robot.extended.yaml"),
+              testing::AllOf(testing::StartsWith("# Written by palpate diagnose"),
+                             testing::HasSubstr("E of ")));
   EXPECT_THAT(ReadFile(folder_ / "out/report.html"), testing::HasSubstr("<svg"));
 }
 
