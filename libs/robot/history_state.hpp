@@ -19,7 +19,7 @@ struct HistoryTuning {
   double renew_slides_N = 0.1;  ///< the same of commanded tensions
 };
 
-/// What the past does to a robot, followed from frame to frame: the play of its actuators, where
+/// History variables of a robot, followed from frame to frame: the play of its actuators, where
 /// its cables stick and slide (sticking.hpp), creep (fem/viscosity.hpp) and softening
 /// (fem/mullins.hpp) of its material, as its body has them (RobotBody). Between frames commands go
 /// straight, and a frame that is left out is a longer step.

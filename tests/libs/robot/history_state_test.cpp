@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/libs/robot/beam_model.hpp"
 
@@ -174,24 +175,25 @@ TEST_F(HistoryStateTest, FrictionMakesAHysteresis) {
   EXPECT_LT(rough_N[1], 0.999 * smooth_N[1]);
 }
 
-/// Work of the actuator in a closed cycle of the command, and the largest energy on the way, J.
+/// Work of the actuator in a closed cycle of the command, and the largest on the way, J.
 struct Cycle {
   double work_J = 0.0;
   double most_J = 0.0;
 };
 
-/// What is lost in a cycle is never gained.
-TEST_F(HistoryStateTest, NoEffectGivesEnergyInAClosedCycle) {
+/// Friction, creep and softening lose energy in a cycle, and never give any.
+TEST_F(HistoryStateTest, LosesEnergyInAClosedCycle) {
   const auto cycle = [&](const std::string& cable, const std::string& material) {
     const auto model = With(cable, material);
+    model->SetGravity(Eigen::Vector3d::Zero());
     HistoryState history(*model);
     state_ = model->RestState();
     Cycle of;
     double tension_N = Follow(0.0, 0.0, model.get(), &history).multipliers_N[0];
     double displacement_m = 0.0;
-    for (int frame = 1; frame <= 24; ++frame) {
-      const double next_m = 5e-4 * (frame <= 12 ? frame : 24 - frame);
-      const double next_N = Follow(0.1 * frame, next_m, model.get(), &history).multipliers_N[0];
+    for (int frame = 1; frame <= 40; ++frame) {
+      const double next_m = 2e-4 * (frame <= 20 ? frame : 40 - frame);
+      const double next_N = Follow(0.05 * frame, next_m, model.get(), &history).multipliers_N[0];
       of.work_J += 0.5 * (tension_N + next_N) * (next_m - displacement_m);
       of.most_J = std::max(of.most_J, of.work_J);
       tension_N = next_N;
@@ -201,53 +203,55 @@ TEST_F(HistoryStateTest, NoEffectGivesEnergyInAClosedCycle) {
   };
   const Cycle elastic = cycle("", "");
   EXPECT_NEAR(elastic.work_J, 0.0, 1e-4 * elastic.most_J);
-  const Cycle with_play = cycle(", play_m: 0.001", "");
-  EXPECT_GE(with_play.work_J, -1e-4 * with_play.most_J);
-  for (const Cycle& lossy :
-       {cycle(", friction_coefficient: 0.3", ""), cycle("", ", creep: [{share: 0.3, time_s: 1}]"),
-        cycle("", ", softening: {r: 2, m_J_m3: 20}")}) {
-    EXPECT_GT(lossy.work_J, 1e-3 * lossy.most_J);
-  }
+  EXPECT_GT(cycle(", friction_coefficient: 0.3", "").work_J, 1e-3 * elastic.most_J);
+  EXPECT_GT(cycle("", ", creep: [{share: 0.3, time_s: 1}]").work_J, 1e-3 * elastic.most_J);
+  EXPECT_GT(cycle("", ", softening: {r: 2, m_J_m3: 20}").work_J, 1e-3 * elastic.most_J);
 }
 
 /// The equilibrium of a command that is held tends to that of a robot that does not creep.
 TEST_F(HistoryStateTest, CreepRelaxesToItsLongTimeValue) {
-  const auto tension_N = [&](const std::string& material, const std::vector<double>& t_s) {
+  const auto tensions_N = [&](const std::string& material) {
     const auto model = With("", material);
+    model->SetGravity(Eigen::Vector3d::Zero());
     HistoryState history(*model);
     state_ = model->RestState();
-    Follow(0.0, 0.0, model.get(), &history);
-    double held_N = 0.0;
-    for (const double at_s : t_s)
-      held_N = Follow(at_s, 0.004, model.get(), &history).multipliers_N[0];
-    return held_N;
+    double at_once_N = 0.0;
+    for (int frame = 0; frame <= 20; ++frame) {
+      at_once_N = Follow(1e-3 * frame, 2e-4 * frame, model.get(), &history).multipliers_N[0];
+    }
+    double later_N = at_once_N;
+    for (int frame = 1; frame <= 30; ++frame)
+      later_N = Follow(1.0 * frame, 0.004, model.get(), &history).multipliers_N[0];
+    return std::pair{at_once_N, later_N};
   };
-  const std::string creeps = ", creep: [{share: 0.3, time_s: 2}]";
-  const double elastic_N = tension_N("", {0.1});
-  EXPECT_GT(tension_N(creeps, {0.1}), 1.1 * elastic_N);
-  EXPECT_NEAR(tension_N(creeps, {0.1, 5.0, 40.0, 80.0, 120.0}), elastic_N, 1e-3 * elastic_N);
+  const auto [elastic_N, held_N] = tensions_N("");
+  EXPECT_NEAR(held_N, elastic_N, 1e-6 * elastic_N);
+  const auto [at_once_N, relaxed_N] = tensions_N(", creep: [{share: 0.3, time_s: 2}]");
+  EXPECT_GT(at_once_N, 1.2 * elastic_N);
+  EXPECT_NEAR(relaxed_N, elastic_N, 1e-3 * elastic_N);
 }
 
 /// A sequence begins as soft as the one before it in time has left the material.
 TEST_F(HistoryStateTest, SofteningOutlivesASequence) {
   const auto model = With("", ", softening: {r: 2, m_J_m3: 20}");
+  model->SetGravity(Eigen::Vector3d::Zero());
   const auto pulled_N = [&](double begin_s, double displacement_m) {
     HistoryState history(*model);
     state_ = model->RestState();
     double tension_N = 0.0;
-    for (int frame = 0; frame <= 12; ++frame) {
-      const double share = std::min(1.0, 0.1 * frame);
+    for (int frame = 0; frame <= 30; ++frame) {
+      const double share = std::min(1.0, 0.05 * frame);
       tension_N = Follow(begin_s + 0.1 * frame, share * displacement_m, model.get(), &history)
                       .multipliers_N[0];
     }
     return tension_N;
   };
-  const double virgin_N = pulled_N(0.0, 0.003);
-  pulled_N(10.0, 0.006);
-  const double softened_N = pulled_N(20.0, 0.003);
+  const double virgin_N = pulled_N(0.0, 0.002);
+  pulled_N(10.0, 0.004);
+  const double softened_N = pulled_N(20.0, 0.002);
   EXPECT_LT(softened_N, 0.97 * virgin_N);
-  EXPECT_NEAR(pulled_N(30.0, 0.003), softened_N, 1e-3 * softened_N);
-  EXPECT_NEAR(pulled_N(0.0, 0.003), virgin_N, 1e-6 * virgin_N);  // an earlier time: from the start
+  EXPECT_NEAR(pulled_N(30.0, 0.002), softened_N, 1e-3 * softened_N);
+  EXPECT_NEAR(pulled_N(0.0, 0.002), virgin_N, 1e-6 * virgin_N);  // an earlier time: from the start
 }
 
 /// Effects that vanish leave the tensions of a robot without them.
