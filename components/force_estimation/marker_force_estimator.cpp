@@ -30,6 +30,9 @@ struct MarkerTuning {
   double largest_contact_distance_m = 0.02;
   /// Variances below this share of the largest are of directions that were not fitted.
   double least_variance = 1e-12;
+  /// Fits of a frame about the history variables of its own shape. Fewer: faster; more: truer while
+  /// the robot moves.
+  int most_rounds = 6;
 };
 constexpr MarkerTuning kMarkerTuning;
 
@@ -119,12 +122,14 @@ class MarkerForceEstimator::Impl {
   bool Searches() const { return sites_.empty(); }
   bool StandsOnContact(const robot::BodyMarker& marker) const;
   Status Process(const MarkerFrame& frame);
+  Status FollowHistory(const MarkerFrame& frame);
   void FollowReference(const MarkerFrame& frame);
   void CommitHistory();
   Status CheckFrame(const MarkerFrame& frame) const;
   void SetPoseColumns(const MarkerFrame& frame);
   Status SetTargets(const MarkerFrame& frame);
   Status SolveFreeState(const MarkerFrame& frame);
+  fem::TimeBudget FrameBudget() const;
   Status FitGivenSites(const MarkerFrame& frame);
   Status FitFromFreeState(const MarkerFrame& frame);
   Status Fit(const MarkerFrame& frame, const fem::TimeBudget& budget);
@@ -228,11 +233,27 @@ Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
   if (Status status = FollowLoads(frame); !status.ok()) return status;
   if (Status status = SetTargets(frame); !status.ok()) return status;
   if (!history_.active()) return Searches() ? SearchSites(frame) : FitGivenSites(frame);
+  return FollowHistory(frame);
+}
+
+/// Again until the history variables are those of the shape. A search does without: its cost would
+/// be that of several.
+Status MarkerForceEstimator::Impl::FollowHistory(const MarkerFrame& frame) {
   MarkerFrame as_driven = frame;
   as_driven.cables = history_.Prepare(frame.t_s, frame.cables);
   fitter_.ForgetFactor();
   free_inputs_.reset();
-  return Searches() ? SearchSites(as_driven) : FitGivenSites(as_driven);
+  if (Searches()) return SearchSites(as_driven);
+  const fem::TimeBudget budget = FrameBudget();
+  Status status = FitGivenSites(as_driven);
+  for (int round = 1; round < kMarkerTuning.most_rounds && published_; ++round) {
+    if (budget.Over() || !history_.Correct(estimate_.x_m)) break;
+    fitter_.ForgetFactor();
+    free_inputs_.reset();
+    published_ = false;
+    status = FitGivenSites(as_driven);
+  }
+  return status;
 }
 
 /// A body that is held in its undeformed shape relaxes there. One that is free is where its first
@@ -319,12 +340,15 @@ Status MarkerForceEstimator::Impl::SolveFreeState(const MarkerFrame& frame) {
   return status;
 }
 
+fem::TimeBudget MarkerForceEstimator::Impl::FrameBudget() const {
+  const bool limited = config_.frame_budget_s > 0.0;
+  return fem::TimeBudget(limited ? config_.frame_budget_s : std::numeric_limits<double>::infinity(),
+                         clock_);
+}
+
 /// Starts at the last frame's state; where that diverges, again at the equilibrium without contact.
 Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
-  const fem::TimeBudget budget(config_.frame_budget_s > 0.0
-                                   ? config_.frame_budget_s
-                                   : std::numeric_limits<double>::infinity(),
-                               clock_);
+  const fem::TimeBudget budget = FrameBudget();
   Status status;
   if (state_.valid) {
     state_.balanced = false;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -76,15 +77,19 @@ class HistoryState::Eyelets {
     SetFriction(assumed_);
   }
 
+  /// The largest change, of 1: what friction can be.
+  double Correct(const Eigen::VectorXd& x_m) {
+    const Eigen::VectorXd sliding = SlidingAt(LengthsBeyond_m(x_m));
+    const double change = (sliding - assumed_).cwiseAbs().maxCoeff();
+    assumed_ = sliding;
+    SetFriction(assumed_);
+    return change;
+  }
+
   void Commit(const std::vector<CableCommand>& commands, const Eigen::VectorXd& x_m,
               const Eigen::VectorXd& tension_N) {
     const Eigen::VectorXd lengths_m = LengthsBeyond_m(x_m);
-    if (known_ && slides_.IsKnown()) {
-      const Eigen::MatrixXd by_sliding_m = BySliding_m();
-      const Eigen::VectorXd freely_m =
-          lengths_m - lengths_m_ - by_sliding_m * (assumed_ - sliding_);
-      sliding_ = StickOrSlide(sliding_, freely_m, by_sliding_m);
-    }
+    sliding_ = SlidingAt(lengths_m);
     lengths_m_ = lengths_m;
     commands_ = commands;
     state_.x_m = x_m;
@@ -94,6 +99,14 @@ class HistoryState::Eyelets {
   }
 
  private:
+  /// [eyelets] at a shape of the frame that was prepared, where cables are so long beyond them.
+  Eigen::VectorXd SlidingAt(const Eigen::VectorXd& lengths_m) const {
+    if (!known_ || !slides_.IsKnown()) return assumed_;
+    const Eigen::MatrixXd by_sliding_m = BySliding_m();
+    const Eigen::VectorXd freely_m = lengths_m - lengths_m_ - by_sliding_m * (assumed_ - sliding_);
+    return StickOrSlide(sliding_, freely_m, by_sliding_m);
+  }
+
   /// About the last shape, where the commands have gone far since, or other cables are taut.
   void RenewSlides(const std::vector<CableCommand>& commands) {
     if (slides_.IsKnown()) {
@@ -183,6 +196,7 @@ class HistoryState::Material {
   void Restart() {
     began_ = false;
     damage_.setOnes(volume_m3_.size());
+    presses_ = false;
     scale_ = 1.0;
     model_.SetHistoryForce({});
     model_.elastic_body().SetCellFactors(damage_);
@@ -197,11 +211,29 @@ class HistoryState::Material {
     if (creep_.active() && step_s > 0.0) {
       creep_.Prepare(step_s);
       scale_ = creep_.scale();
-      Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m_.size());
-      creep_.history().AddProduct(x_m_, -1.0, force_N);
-      model_.SetHistoryForce(std::move(force_N));
+      presses_ = true;
+      SetForce(x_m_);
     }
     model_.elastic_body().SetCellFactors(scale_ * damage_);
+  }
+
+  /// The largest change, of the internal forces or of the moduli.
+  double Correct(const Eigen::VectorXd& x_m) {
+    double change = 0.0;
+    if (presses_) {
+      Eigen::VectorXd elastic_N = Eigen::VectorXd::Zero(x_m.size());
+      model_.elastic_body().AddForces(x_m, elastic_N);
+      const Eigen::VectorXd before_N = force_N_;
+      SetForce(x_m);
+      const double least_N = std::numeric_limits<double>::min();
+      change = (force_N_ - before_N).norm() / std::max(least_N, elastic_N.norm());
+    }
+    if (softening_) {
+      Eigen::VectorXd largest_J_m3 = model_.strain_history().largest_J_m3;
+      change = std::max(change, StepDamage(x_m, &largest_J_m3));
+      model_.elastic_body().SetCellFactors(scale_ * damage_);
+    }
+    return change;
   }
 
   void Commit(double t_s, const Eigen::VectorXd& x_m) {
@@ -211,7 +243,10 @@ class HistoryState::Material {
     } else if (t_s > t_s_) {
       creep_.Advance(materials, damage_, x_m, t_s - t_s_);
     }
-    if (softening_) Soften(t_s, x_m);
+    if (softening_) {
+      StepDamage(x_m, &model_.strain_history().largest_J_m3);
+      model_.strain_history().t_s = t_s;
+    }
     began_ = true;
     t_s_ = t_s;
     x_m_ = x_m;
@@ -231,14 +266,19 @@ class HistoryState::Material {
     model_.elastic_body().SetCellFactors(damage_);
   }
 
-  void Soften(double t_s, const Eigen::VectorXd& x_m) {
+  /// What creep has left, at the shape `x_m`.
+  void SetForce(const Eigen::VectorXd& x_m) {
+    force_N_.setZero(x_m.size());
+    creep_.history().AddProduct(x_m, -1.0, force_N_);
+    model_.SetHistoryForce(force_N_);
+  }
+
+  double StepDamage(const Eigen::VectorXd& x_m, Eigen::VectorXd* largest_J_m3) {
     Eigen::VectorXd energy_J;
     model_.elastic_body().CellEnergies(x_m, &energy_J);
     const Eigen::VectorXd undamaged_m3 = scale_ * damage_.cwiseProduct(volume_m3_);
-    StrainHistory& strained = model_.strain_history();
-    fem::StepDamage(*softening_, energy_J.cwiseQuotient(undamaged_m3), &strained.largest_J_m3,
-                    &damage_);
-    strained.t_s = t_s;
+    return fem::StepDamage(*softening_, energy_J.cwiseQuotient(undamaged_m3), largest_J_m3,
+                           &damage_);
   }
 
   RobotModel& model_;
@@ -247,6 +287,8 @@ class HistoryState::Material {
   Eigen::VectorXd volume_m3_;  ///< [elements]
   Eigen::VectorXd damage_;     ///< [elements] eta
   double scale_ = 1.0;         ///< by creep, of the frame that was prepared
+  bool presses_ = false;       ///< creep has left a stress, with this nodal force
+  Eigen::VectorXd force_N_;    ///< [3n]
   bool began_ = false;
   double t_s_ = 0.0;     ///< of the last shape
   Eigen::VectorXd x_m_;  ///< [3n] the last shape
@@ -254,6 +296,7 @@ class HistoryState::Material {
 
 HistoryState::HistoryState(RobotModel& model, const HistoryTuning& tuning)
     : model_(model),
+      tuning_(tuning),
       active_(HasPlay(model.body()) || HasFriction(model.body()) || !model.body().creep.empty() ||
               model.body().softening.has_value()) {
   if (HasFriction(model.body())) eyelets_ = std::make_unique<Eyelets>(model, tuning);
@@ -287,6 +330,14 @@ const std::vector<CableCommand>& HistoryState::Prepare(double t_s,
   if (eyelets_) eyelets_->Prepare(commands_);
   if (material_) material_->Prepare(t_s);
   return commands_;
+}
+
+bool HistoryState::Correct(const Eigen::VectorXd& x_m) {
+  PALPATE_CHECK(began_);
+  double change = 0.0;
+  if (eyelets_) change = eyelets_->Correct(x_m);
+  if (material_) change = std::max(change, material_->Correct(x_m));
+  return change > tuning_.settled;
 }
 
 void HistoryState::Commit(const Eigen::VectorXd& x_m, const Eigen::VectorXd& tension_N) {

@@ -17,6 +17,9 @@ struct HistoryTuning {
   /// much.
   double renew_slides_m = 5e-4;
   double renew_slides_N = 0.1;  ///< the same of commanded tensions
+  /// Change of a history variable by which a frame is solved again, as a share: of what friction
+  /// can be, of the modulus, of the internal forces. Larger: faster; smaller: truer in motion.
+  double settled = 1e-3;
 };
 
 /// History variables of a robot, followed from frame to frame: the play of its actuators, where
@@ -43,6 +46,9 @@ class HistoryState {
   /// the history force of the model to what is left of the past then. Uses the model's
   /// linearisation. A time before the last one's begins a sequence.
   const std::vector<CableCommand>& Prepare(double t_s, const std::vector<CableCommand>& commands);
+  /// Brings friction, cell factors and the history force to a solution `x_m` [3n] of the frame that
+  /// was prepared. Returns whether they change enough for the frame to be solved again.
+  bool Correct(const Eigen::VectorXd& x_m);
   /// The frame that was prepared has the shape `x_m` [3n] and the tensions `tension_N` [cables] at
   /// the actuators. Not called where a frame tells no shape: the next one takes the longer step.
   void Commit(const Eigen::VectorXd& x_m, const Eigen::VectorXd& tension_N);
@@ -52,6 +58,7 @@ class HistoryState {
   class Material;
 
   RobotModel& model_;
+  HistoryTuning tuning_;
   bool active_;
   double t_s_ = 0.0;
   bool began_ = false;

@@ -102,8 +102,20 @@ TEST(Cables, RoutedElsewherePullsThatWay) {
   EXPECT_LE((robot->positions_m() - expected->positions_m()).cwiseAbs().maxCoeff(), 2e-7);
 }
 
-TEST(Actuators, BacklashIsThePlayOperator) {
-  ActuatorChain actuators({"a"}, {Effect("backlash", {"cable:a"}, {{"play_m", 0.002}})});
+std::vector<robot::BodyCable> OneCable(double play_m) {
+  robot::BodyCable cable;
+  cable.name = "a";
+  cable.play_m = play_m;
+  return {cable};
+}
+
+class PlayOfActuators : public testing::TestWithParam<double> {};
+
+/// However much of it the robot file has, and the effect.
+TEST_P(PlayOfActuators, IsThePlayOperator) {
+  const double in_file_m = GetParam();
+  ActuatorChain actuators(OneCable(in_file_m),
+                          {Effect("backlash", {"cable:a"}, {{"play_m", 0.002 - in_file_m}})});
   const auto command = [](double value_m) { return Eigen::VectorXd::Constant(1, value_m); };
   actuators.Reset(0.0, command(0.0));
   const auto at = [&](double t_s, double value_m) {
@@ -118,10 +130,12 @@ TEST(Actuators, BacklashIsThePlayOperator) {
   EXPECT_DOUBLE_EQ(at(5.0, 0.002), 0.003);
 }
 
+INSTANTIATE_TEST_SUITE_P(Shares, PlayOfActuators, testing::Values(0.0, 0.0005, 0.002));
+
 TEST(Actuators, LagIsADelayAndAFirstOrder) {
   constexpr double kDelay_s = 0.1;
   constexpr double kTau_s = 0.3;
-  ActuatorChain actuators({"a"},
+  ActuatorChain actuators(OneCable(0.0),
                           {Effect("lag", {"body"}, {{"delay_s", kDelay_s}, {"tau_s", kTau_s}})});
   actuators.Reset(0.0, Eigen::VectorXd::Zero(1));
   for (int k = 1; k <= 100; ++k) {
