@@ -16,7 +16,7 @@ Softening::Softening(const BenchBody& body, const Effects& effects, double durat
       damage_(Eigen::VectorXd::Ones(body.mesh.CellCount())),
       left_damage_(damage_),
       largest_J_m3_(Eigen::VectorXd::Zero(body.mesh.CellCount())),
-      factor_(Eigen::VectorXd::Ones(mesh.CellCount())) {
+      factor_(Eigen::VectorXd::Ones(body.mesh.CellCount())) {
   for (const auto* effect : OfKind(effects, "temperature")) {
     temperature_change_ += Value(*effect, "relative_E_change_at_end");
   }

@@ -30,7 +30,7 @@ struct Deviation {
 const Deviation kNone;
 const Deviation kCreep{"{id: viscoelastic_creep, g: 0.15, tau_s: 6}",
                        ", creep: [{share: 0.15, time_s: 6}]", ""};
-const Deviation kSoftening{"{id: mullins, r: 2, m: 60}", ", softening: {r: 2, m_J_m3: 60}", ""};
+const Deviation kSoftening{"{id: mullins, r: 3, m: 200}", ", softening: {r: 3, m_J_m3: 200}", ""};
 const Deviation kFriction{
     "{id: cable_friction, where: cable:top, mu: 0.3}, "
     "{id: cable_friction, where: cable:bottom, mu: 0.3}",
@@ -45,7 +45,7 @@ const std::string kScenario = R"(body: {refine: 0}
 motion: {mode: quasi_static, time_step_s: 0.1}
 clutter: 0
 rest_between_s: 0
-markers: {sigma_m: 5.0e-5, rate_hz: 5}
+markers: {sigma_m: 3.0e-4, rate_hz: 5}
 recordings:
   - name: loaded
     kind: known_load
