@@ -231,6 +231,30 @@ TEST_F(HistoryStateTest, CreepRelaxesToItsLongTimeValue) {
   EXPECT_NEAR(relaxed_N, elastic_N, 1e-3 * elastic_N);
 }
 
+/// A frame that is solved again about its own shape comes to rest.
+TEST_F(HistoryStateTest, CorrectionsSettle) {
+  constexpr int kMostRounds = 12;
+  const auto model = With(", friction_coefficient: 0.3",
+                          ", creep: [{share: 0.3, time_s: 1}], softening: {r: 3, m_J_m3: 50}");
+  model->SetGravity(Eigen::Vector3d::Zero());
+  HistoryState history(*model);
+  state_ = model->RestState();
+  std::vector<CableCommand> commands(2);
+  int corrected = 0;
+  for (int frame = 0; frame <= 24; ++frame) {
+    commands[0] = Displace(2e-4 * (frame <= 12 ? frame : 24 - frame));
+    const std::vector<CableCommand> reached = history.Prepare(0.1 * frame, commands);
+    int round = 0;
+    do {
+      ASSERT_TRUE(model->Solve(reached, {}, &state_).status.ok()) << frame;
+      ASSERT_LT(++round, kMostRounds) << frame;
+    } while (history.Correct(state_.x_m));
+    corrected += round > 1 ? 1 : 0;
+    history.Commit(state_.x_m, state_.multipliers_N);
+  }
+  EXPECT_GT(corrected, 5);
+}
+
 /// A sequence begins as soft as the one before it in time has left the material.
 TEST_F(HistoryStateTest, SofteningOutlivesASequence) {
   const auto model = With("", ", softening: {r: 2, m_J_m3: 20}");
