@@ -119,8 +119,8 @@ class ExtendedRobot : public testing::Test {
     ASSERT_EQ(SimulateOrCheck(options), 0);
   }
 
-  /// RMS error of the weight's force, N, as the robot of `file` feels it. Every frame has a force,
-  /// or a reason.
+  /// RMS error of the weight's force, N, as the robot of `file` feels it. A frame without contact
+  /// has the force 0, and all others have one.
   double Error_N(const Deviation& file) const {
     EstimateOptions options;
     options.robot = Robot(file);
@@ -139,8 +139,9 @@ class ExtendedRobot : public testing::Test {
         changes = changes || std::abs(t_s - change_s) < 0.21;  // a step and a frame
         if (t_s > change_s) weight_N = 9.81 * kWeight_kg - weight_N;
       }
-      if (changes || forces.Text(row, 8).empty()) continue;
-      sum_N2 += std::pow(forces.Number(row, 8) + weight_N, 2);
+      if (changes) continue;
+      const bool none = forces.Text(row, 11) == "no_contact";
+      sum_N2 += std::pow((none ? 0.0 : forces.Number(row, 8)) + weight_N, 2);
       ++frames;
     }
     EXPECT_GT(frames, 150);
@@ -153,7 +154,8 @@ class ExtendedRobot : public testing::Test {
 struct Case {
   std::string name;
   Deviation deviation;
-  double worse_without;  ///< at least by this factor
+  double most_with;      ///< error with the extended file over that of a healthy robot
+  double worse_without;  ///< that without: at least
 };
 
 void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
@@ -161,7 +163,7 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 class ForcesOfExtendedRobot : public ExtendedRobot, public testing::WithParamInterface<Case> {};
 
 TEST_P(ForcesOfExtendedRobot, AreAsGoodAsOnAHealthyRobot) {
-  const auto& [name, deviation, worse_without] = GetParam();
+  const auto& [name, deviation, most_with, worse_without] = GetParam();
   Simulate(kNone, "");
   const double healthy_N = Error_N(kNone);
   Simulate(kNone, deviation.effects);
@@ -170,15 +172,16 @@ TEST_P(ForcesOfExtendedRobot, AreAsGoodAsOnAHealthyRobot) {
   RecordProperty("healthy_mN", std::to_string(1e3 * healthy_N));
   RecordProperty("without_mN", std::to_string(1e3 * without_N));
   RecordProperty("extended_mN", std::to_string(1e3 * extended_N));
-  EXPECT_LE(extended_N, 1.2 * healthy_N);
+  EXPECT_LE(extended_N, most_with * healthy_N);
   EXPECT_GE(without_N, worse_without * healthy_N);
 }
 
+/// Play of 1.5 mm moves cables between taut and slack, where single frames err more.
 INSTANTIATE_TEST_SUITE_P(Each, ForcesOfExtendedRobot,
-                         testing::Values(Case{"Creep", kCreep, 1.5},
-                                         Case{"Softening", kSoftening, 1.5},
-                                         Case{"Friction", kFriction, 1.5},
-                                         Case{"Play", kPlay, 1.5}),
+                         testing::Values(Case{"Creep", kCreep, 1.2, 2.0},
+                                         Case{"Softening", kSoftening, 1.2, 2.0},
+                                         Case{"Friction", kFriction, 1.2, 2.0},
+                                         Case{"Play", kPlay, 1.5, 2.0}),
                          [](const auto& info) { return info.param.name; });
 
 /// The keys of the robot file and the hidden effects of the same size make the same data.
