@@ -34,11 +34,13 @@ class Extension : public testing::Test {
     experiment::Experiment experiment;
     experiment.markers_sigma_m = Eigen::Vector3d::Constant(3e-4);
     for (std::size_t c = 0; c < body.cables.size(); ++c) {
-      std::vector<double> command(body.cables.size(), 0.001);
+      const std::vector<double> before(body.cables.size(), 0.001);
+      std::vector<double> command = before;
       command[c] = 0.008 + 0.002 * static_cast<double>(c);
       const double begin_s = 10.0 * static_cast<double>(c);
       experiment.recordings.push_back(MakeRecording(
-          "r" + std::to_string(c), body, {{begin_s, command}, {begin_s + 1.0, command}}, 0.5));
+          "r" + std::to_string(c), body,
+          {{begin_s, before}, {begin_s + 0.5, command}, {begin_s + 1.0, command}}, 0.5));
     }
     return Observe(experiment, body, {});
   }
