@@ -9,9 +9,9 @@
 
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibrate_points.hpp"
-#include "components/palpate/images/image_samples.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/images/image_samples.hpp"
 #include "components/palpate/images/open_images.hpp"
 #include "components/perception/markers/fiducial_detector.hpp"
 #include "components/perception/registered_frame.hpp"
