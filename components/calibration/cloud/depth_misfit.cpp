@@ -359,12 +359,14 @@ DepthMisfit DepthSearch::Run() {
   const Place pose = FindPose(&convention);
   const bool moved = Explains(pose.misfit) && !IsAllowed(pose.T_robot_camera);
   if (!is_bad && !moved) return {.fits = true, .reasons = {}};
-  if (moved) TakePose(pose, convention);
+  if (moved && (!request_.may_be_touched || !convention.empty())) TakePose(pose, convention);
   TryDepthUnit();
   TryBodyUnit();
-  TrySize();
   TryLens();
-  TryStiffness();
+  if (!request_.may_be_touched) {  // contacts turn, stretch and bend a robot, too
+    TrySize();
+    TryStiffness();
+  }
   result_.SortBestFirst();
   if (result_.reasons.empty() && request_.may_be_touched) return {.fits = true, .reasons = {}};
   if (result_.reasons.empty()) SayRobot(pose);

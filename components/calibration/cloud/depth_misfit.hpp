@@ -18,7 +18,8 @@ struct DepthMisfitRequest {
   geometry::RigidTransform T_robot_camera;
   double translation_sigma_m = 0.0;  ///< of the camera's pose at the robot
   double rotation_sigma_rad = 0.0;
-  /// Something may touch and bend the robot: only what no contact explains is a misfit.
+  /// Something may touch and bend the robot: only what no contact explains is a misfit. A pose that
+  /// is merely off, size and stiffness are not.
   bool may_be_touched = false;
 };
 

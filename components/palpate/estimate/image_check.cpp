@@ -41,9 +41,13 @@ void RequireImagesFit(const ImageCheck& check, const std::vector<PlannedRecordin
   const std::vector<const Recording*> contact_free = BiasRecordings(check.experiment);
   if (!contact_free.empty()) RequireFit(check, *contact_free.front(), /*may_be_touched=*/false);
   for (const PlannedRecording& planned : plan) {
-    const bool is_done = !contact_free.empty() && planned.recording == contact_free.front();
-    if (planned.from != EstimateFrom::kShape || is_done) continue;
-    RequireFit(check, *planned.recording, /*may_be_touched=*/true);
+    const Recording& recording = *planned.recording;
+    // What fits without a contact fits with one, whatever that does to the shape.
+    const bool is_known =
+        !contact_free.empty() && !recording.T_robot_camera && !contact_free.front()->T_robot_camera;
+    const bool is_done = !contact_free.empty() && &recording == contact_free.front();
+    if (planned.from != EstimateFrom::kShape || is_known || is_done) continue;
+    RequireFit(check, recording, /*may_be_touched=*/true);
   }
 }
 
