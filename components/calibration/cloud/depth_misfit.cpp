@@ -53,6 +53,12 @@ struct Place {
   double misfit = 1.0;
 };
 
+/// A factor, and how the images fit once it is mended.
+struct Scaled {
+  double factor = 1.0;
+  double misfit = 1.0;
+};
+
 /// A wrong reading of a pose, mended.
 struct Convention {
   RigidTransform T_robot_camera;
@@ -90,6 +96,7 @@ class DepthSearch {
   bool Explains(double misfit) const;
   std::string PoseName() const;
   void TakePose(const Place& place, const std::string& convention);
+  Scaled BestOf(const std::vector<double>& factors, double Mend::*part);
   void TryDepthUnit();
   void TryBodyUnit();
   void TrySize();
@@ -258,75 +265,61 @@ void DepthSearch::TryDepthUnit() {
                     times, small ? "small" : "large", small ? "multiply" : "divide", times));
 }
 
-void DepthSearch::TryBodyUnit() {
-  Place best;
-  double best_factor = 1.0;
-  for (const double factor : {1e3, 1e2, 25.4, 10.0, 0.1, 1.0 / 25.4, 1e-2, 1e-3}) {
-    const Place place = FitNear({.body = factor});
-    if (place.misfit >= best.misfit) continue;
-    best = place;
-    best_factor = factor;
+/// The best of the factors by which a length or motion may be wrong.
+Scaled DepthSearch::BestOf(const std::vector<double>& factors, double Mend::*part) {
+  Scaled best;
+  for (const double factor : factors) {
+    Mend mend;
+    mend.*part = factor;
+    const double misfit = FitNear(mend).misfit;
+    if (misfit < best.misfit) best = {factor, misfit};
   }
+  return best;
+}
+
+void DepthSearch::TryBodyUnit() {
+  const Scaled best = BestOf({1e3, 1e2, 25.4, 10.0, 0.1, 1.0 / 25.4, 1e-2, 1e-3}, &Mend::body);
   if (!Explains(best.misfit)) return;
-  const bool small = best_factor > 1.0;
+  const bool small = best.factor > 1.0;
   Take(Reason::kUnit, best.misfit,
        FormatReason("unit of the mesh: the robot file's robot is %.4g times too %s: is mesh: unit: "
                     "of the robot file right?",
-                    small ? best_factor : 1.0 / best_factor, small ? "small" : "large"));
+                    small ? best.factor : 1.0 / best.factor, small ? "small" : "large"));
 }
 
 void DepthSearch::TrySize() {
-  Place best;
-  double best_size = 1.0;
+  std::vector<double> sizes;
   for (int step = -kDepthMisfitTuning.size_steps; step <= kDepthMisfitTuning.size_steps; ++step) {
-    const double size = std::pow(kDepthMisfitTuning.size_step, step);
-    if (step == 0) continue;
-    const Place place = FitNear({.body = size});
-    if (place.misfit >= best.misfit) continue;
-    best = place;
-    best_size = size;
+    if (step != 0) sizes.push_back(std::pow(kDepthMisfitTuning.size_step, step));
   }
+  const Scaled best = BestOf(sizes, &Mend::body);
   if (!Explains(best.misfit)) return;
   Take(Reason::kSize, best.misfit,
        FormatReason("size: the robot in the image is %.2g times as large as its file says: another "
                     "robot, or correct the mesh",
-                    best_size));
+                    best.factor));
 }
 
 /// Intrinsics belong to one resolution.
 void DepthSearch::TryLens() {
-  Place best;
-  double best_factor = 1.0;
-  for (const double factor :
-       {0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 4.0 / 3.0, 1.5, 2.0, 3.0, 4.0}) {
-    const Place place = FitNear({.lens = factor});
-    if (place.misfit >= best.misfit) continue;
-    best = place;
-    best_factor = factor;
-  }
+  const Scaled best =
+      BestOf({0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 4.0 / 3.0, 1.5, 2.0, 3.0, 4.0}, &Mend::lens);
   if (!Explains(best.misfit)) return;
   const rgbd::CameraModel& lens = comparisons_.front().camera().depth;
   Take(Reason::kIntrinsics, best.misfit,
        FormatReason("intrinsics: fx, fy, cx and cy of camera.yaml are those of an image %.3g times "
                     "as wide as its %d pixels: give those of this resolution (fx_px %.5g)",
-                    1.0 / best_factor, lens.width_px, best_factor * lens.fx_px));
+                    1.0 / best.factor, lens.width_px, best.factor * lens.fx_px));
 }
 
 void DepthSearch::TryStiffness() {
-  Place best;
-  double best_factor = 1.0;
-  for (const double factor : {0.0, 0.5, 0.7, 1.4, 2.0}) {
-    const Place place = FitNear({.motion = factor});
-    if (place.misfit >= best.misfit) continue;
-    best = place;
-    best_factor = factor;
-  }
+  const Scaled best = BestOf({0.0, 0.5, 0.7, 1.4, 2.0}, &Mend::motion);
   if (!Explains(best.misfit)) return;
   Take(Reason::kModulus, best.misfit,
        FormatReason("stiffness: the robot in the image bends %.1f times as far as the model: is "
                     "youngs_modulus_Pa of the robot file right, and are the cable inputs those of "
                     "the images?",
-                    best_factor));
+                    best.factor));
 }
 
 void DepthSearch::SayRobot(const Place& best) {
