@@ -118,7 +118,9 @@ TEST_F(Extension, ReadsBackWithTheSameValues) {
     const std::string& id = cause->name().id;
     const bool first = (id == "viscoelastic_creep" && creeps++ == 0) ||
                        (id == "mullins" && softens++ == 0) || (id == "backlash" && plays++ == 0);
-    if (first) ASSERT_TRUE(cause->Extend(FaultOf(*cause), &robot, &drives)) << id;
+    if (first) {
+      ASSERT_TRUE(cause->Extend(FaultOf(*cause), &robot, &drives)) << id;
+    }
   }
   ASSERT_EQ(robot.creep.size(), 1U);
   ASSERT_TRUE(robot.softening);
