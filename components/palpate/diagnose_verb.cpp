@@ -20,6 +20,7 @@
 #include "components/palpate/check_labels.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/diagnose/force_gain.hpp"
 #include "components/palpate/diagnose/surface_images.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -127,7 +128,9 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
                                   const robot::RobotDescription& robot,
                                   const app::StopSignal& stop) {
   const auto begin = std::chrono::steady_clock::now();
+  int steps = 1;
   const auto report = [&](int done, int of, const std::string& what) {
+    steps = of;
     fmt::print(stderr, "{}\n",
                StepLine(done, of, what, SecondsSince(begin), 60.0 * options.most_minutes));
   };
@@ -155,6 +158,13 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
                              .depth_cameras = DepthCamerasOf(experiment),
                              .surface_source = images ? &*images : nullptr},
                             report);
+    if (!diagnosis.result.interrupted) {
+      report(steps - 1, steps, "estimating the forces at known loads");
+      diagnosis.result.force_error = MeasureForceError(robot, diagnosis, experiment, [&] {
+        const double longest_s = 60.0 * options.most_minutes;
+        return stop.Requested() || (longest_s > 0.0 && SecondsSince(begin) > longest_s);
+      });
+    }
     diagnosis.result.data_hash = HashOf(experiment);
     return diagnosis;
   } catch (const InputError& error) {

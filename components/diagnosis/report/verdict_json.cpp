@@ -83,6 +83,14 @@ Json ToJson(const ErrorSummary& error) {
           {"noise", Number(error.noise_m)}};
 }
 
+Json ToJson(const ForceError& error) {
+  if (error.forces == 0) return nullptr;
+  return {{"before", Number(error.before_N)},
+          {"after", Number(error.after_N)},
+          {"forces", error.forces},
+          {"recordings", error.recordings}};
+}
+
 Json Vector(const Eigen::Vector3d& v) {
   return Json::array({Number(v.x()), Number(v.y()), Number(v.z())});
 }
@@ -164,6 +172,7 @@ std::string FormatVerdict(const DiagnosisResult& result) {
                        {"stiffness", Number(result.stiffness_discrepancy)}}},
                      {"smallest_findable", List(result.findable)},
                      {"residual_m_rms", ToJson(result.model_error)},
+                     {"force_error_N_rms", ToJson(result.force_error)},
                      {"next_experiment", NextExperiment(result.experiments)},
                      {"recordings", List(result.recordings)},
                      {"residual_forces", ToJson(result.residual_forces)},

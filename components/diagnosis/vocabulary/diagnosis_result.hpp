@@ -102,6 +102,15 @@ struct ErrorSummary {
   double heldout_gain_high_m = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// RMS error of the vectors of forces that were estimated at known loads, N.
+struct ForceError {
+  int recordings = 0;
+  int forces = 0;                                              ///< 0: none were compared
+  double before_N = std::numeric_limits<double>::quiet_NaN();  ///< as the robot file has it
+  double after_N = std::numeric_limits<double>::quiet_NaN();   ///< with the extended files
+  std::string why_not = {};  ///< empty: there was nothing to compare, or it was compared
+};
+
 /// One sample that simulation and robot were compared at.
 struct ComparedSample {
   int recording = 0;  ///< index into DiagnosisResult::recordings
@@ -175,6 +184,7 @@ struct DiagnosisResult {
   double cable_discrepancy = std::numeric_limits<double>::quiet_NaN();
   double stiffness_discrepancy = std::numeric_limits<double>::quiet_NaN();
   ErrorSummary model_error;
+  ForceError force_error;
   std::vector<RecordingError> recordings;
   ResidualForces residual_forces;
   std::vector<std::string>

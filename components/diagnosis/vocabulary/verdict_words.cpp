@@ -140,9 +140,21 @@ std::string ChangeText(const ChangedValue& value) {
          (value.unit.empty() ? "" : " " + value.unit);
 }
 
+/// "0.120 → 0.031 N (RMS, 140 forces in 2 recordings)"
+std::string ForceErrorText(const ForceError& error) {
+  if (!error.why_not.empty()) return "not known: " + error.why_not;
+  if (error.forces == 0) return "";
+  return NumberText(error.before_N, 3) + " \u2192 " + NumberText(error.after_N, 3) + " N (RMS, " +
+         std::to_string(error.forces) + " forces in " + std::to_string(error.recordings) +
+         (error.recordings == 1 ? " recording)" : " recordings)");
+}
+
 void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* details) {
   details->push_back({"Explains", Explained(result)});
   details->push_back({"Left-out error, without and with", Gain(result.model_error)});
+  const std::string force_error = ForceErrorText(result.force_error);
+  if (!force_error.empty())
+    details->push_back({"Force error at known loads, without and with", force_error});
   std::string changes;
   for (const std::string& one : ChangeTexts(result)) changes += (changes.empty() ? "" : "; ") + one;
   if (!changes.empty()) details->push_back({"In the files", changes});

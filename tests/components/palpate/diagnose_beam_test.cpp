@@ -98,6 +98,10 @@ TEST_F(MeasuredBeam, OfADataSheetsModulusNeedsAnother) {
   for (const char* recording : {"gravity_a", "load52g_a"}) {
     EXPECT_LT(StaysHeldOut(verdict, recording), 0.1) << recording;
   }
+  // Forces of half the size become right with the modulus.
+  const auto& force_N = verdict["force_error_N_rms"];
+  EXPECT_GT(force_N["before"], 0.2);
+  EXPECT_LT(force_N["after"], 0.5 * force_N["before"].get<double>());
 }
 
 TEST_F(MeasuredBeam, OfTheRightModulusCreeps) {

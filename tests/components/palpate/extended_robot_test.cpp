@@ -9,10 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "components/palpate/diagnose/force_gain.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/simulate_verb.hpp"
+#include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/experiment/csv_table.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/robot/robot_description.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 
 /// A robot file with creep, softening, friction or play: `palpate simulate` makes data of it, and
@@ -183,6 +187,25 @@ INSTANTIATE_TEST_SUITE_P(Each, ForcesOfExtendedRobot,
                                          Case{"Friction", kFriction, 1.2, 2.0},
                                          Case{"Play", kPlay, 1.5, 2.0}),
                          [](const auto& info) { return info.param.name; });
+
+/// `palpate diagnose` says what its extended files gain in forces at known loads.
+TEST_F(ExtendedRobot, GainsInForcesAtKnownLoads) {
+  Simulate(kNone, kFriction.effects);
+  const auto read = [](const fs::path& file) { return robot::ReadRobotFile(file, app::LoadYaml); };
+  const robot::RobotDescription as_built = read(Robot(kNone));
+  diagnosis::Diagnosis diagnosis;
+  diagnosis.extended = read(Robot(kFriction));
+  const auto experiment = experiment::ReadExperiment(folder_ / "exp", app::LoadYaml);
+  const auto none = MeasureForceError(as_built, diagnosis, experiment, {});
+  EXPECT_EQ(none.forces, 0) << "no cause was named";
+  diagnosis.result.causes.resize(1);
+  const auto error = MeasureForceError(as_built, diagnosis, experiment, {});
+  EXPECT_EQ(error.recordings, 1);
+  EXPECT_GT(error.forces, 30);
+  EXPECT_LT(error.after_N, 0.6 * error.before_N);
+  diagnosis.not_in_files = {"a cause that no file holds"};
+  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, {}).forces, 0);
+}
 
 /// The keys of the robot file and the hidden effects of the same size make the same data.
 TEST_F(ExtendedRobot, IsSimulatedAsTheEffectsAre) {

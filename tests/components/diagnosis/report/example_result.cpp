@@ -167,6 +167,7 @@ void AddRecordings(DiagnosisResult* result) {
                          .noise_m = kNoise_m,
                          .heldout_gain_low_m = 0.8 * (before_m - after_m),
                          .heldout_gain_high_m = 1.1 * (before_m - after_m)};
+  result->force_error = {.recordings = 2, .forces = 140, .before_N = 0.12, .after_N = 0.031};
 }
 
 void AddRivals(DiagnosisResult* result) {

@@ -43,6 +43,9 @@ TEST(VerdictJson, HoldsWhatArchitectureShows) {
   EXPECT_EQ(rms["healthy"], result.model_error.null_model_m);
   EXPECT_EQ(rms["heldout_gain_ci95"][0], result.model_error.heldout_gain_low_m);
   EXPECT_EQ(rms.size(), 7U);
+  EXPECT_EQ(verdict["force_error_N_rms"]["before"], result.force_error.before_N);
+  EXPECT_EQ(verdict["force_error_N_rms"]["after"], result.force_error.after_N);
+  EXPECT_EQ(verdict["force_error_N_rms"]["forces"], 140);
   EXPECT_EQ(cause["in_file"][0]["what"], "friction of cable `north`");
   EXPECT_EQ(cause["in_file"][0]["before"], 0.0);
   EXPECT_EQ(cause["in_file"][0]["after"], 0.2134);

@@ -53,6 +53,8 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   const std::string all = VerdictParagraph(FrictionExample());
   EXPECT_THAT(all, HasSubstr("Explains: 83 % of the misfit beyond noise and tolerances."));
   EXPECT_THAT(all, HasSubstr("Left-out error, without and with: 0.52"));
+  EXPECT_THAT(all, HasSubstr("Force error at known loads, without and with: 0.12 \u2192 0.031 N "
+                             "(RMS, 140 forces in 2 recordings)"));
   EXPECT_THAT(all, HasSubstr(" mm (noise 0.300 mm), a gain of 0."));
   EXPECT_THAT(
       all, HasSubstr("In the files: friction of cable `north`: 0.00 \u2192 0.213 \u00B1 0.019."));

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/diagnose/force_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/force_estimation/shape/known_contacts.hpp"
+#include "components/palpate/estimate/estimate_settings.hpp"
+#include "components/palpate/estimate/marker_replay.hpp"
+#include "components/palpate/estimate/marker_tare.hpp"
+#include "libs/core/error.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+/// Frames of one recording tell its error well enough.
+constexpr double kMostFrames = 100.0;
+
+/// By recording, time and contact: estimated - known, N.
+using ForceErrors = std::map<std::pair<std::string, double>, Eigen::Matrix3Xd>;
+
+bool HasKnownForces(const experiment::Recording& recording) {
+  return recording.markers && std::any_of(recording.loads.begin(), recording.loads.end(),
+                                          [](const experiment::KnownLoad& load) {
+                                            return !load.force_N.isZero(0.0);
+                                          });
+}
+
+/// [3 x known loads] of one frame, N; nothing where the frame cannot be used. A frame that is
+/// explained without a force says that there is none.
+std::optional<Eigen::Matrix3Xd> ErrorsOf(const force_estimation::ForceEstimate& estimate,
+                                         const experiment::Recording& recording) {
+  const bool none = estimate.status.code() == StatusCode::kNoContact;
+  if (!force_estimation::IsUsable(estimate.status)) return std::nullopt;
+  const auto sites = force_estimation::SitesOfLoads(recording.loads, estimate.t_s);
+  Eigen::Matrix3Xd errors_N(3, std::ssize(sites));
+  Eigen::Index known = 0;
+  for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, estimate.t_s)) {
+    if (load.force_N.isZero(0.0)) continue;
+    const std::string& name = sites[static_cast<std::size_t>(known)].name;
+    const auto found =
+        std::find_if(estimate.contacts.begin(), estimate.contacts.end(),
+                     [&](const auto& contact) { return contact.name == name; });
+    if (!none && found == estimate.contacts.end()) return std::nullopt;
+    errors_N.col(known++) = (none ? Eigen::Vector3d::Zero() : found->force_N) - load.force_N;
+  }
+  return errors_N;
+}
+
+/// As one robot feels the known loads.
+ForceErrors Estimate(const robot::RobotDescription& robot,
+                     const std::optional<robot::CalibrationFile>& calibration,
+                     const experiment::Experiment& experiment,
+                     const std::function<bool()>& stop_requested) {
+  const force_estimation::Config config = ReadEstimateSettings(experiment, {}, {}, {}).forces;
+  robot::RobotModel model(robot::BuildRobotBody(robot), fem::StaticSettings{},
+                          {config.solver, config.threads});
+  if (calibration) robot::ApplyCalibration(*calibration, &model);
+  constexpr auto kInput = robot::CableInput::kDisplacement;
+  MarkerTare tare(experiment, &model, kInput, config);
+  tare.Choose();
+  ForceErrors errors;
+  for (const experiment::Recording& recording : experiment.recordings) {
+    if (!HasKnownForces(recording)) continue;
+    const auto& frames = recording.markers->frames;
+    const double duration_s = frames.back().t_s - frames.front().t_s;
+    const double rate_Hz = duration_s > 0.0 ? kMostFrames / duration_s : 0.0;
+    const MarkerReplay replay({.experiment = experiment,
+                               .model = &model,
+                               .cable_input = kInput,
+                               .limits = {rate_Hz, stop_requested},
+                               .tare = &tare},
+                              config, calibration.value_or(robot::CalibrationFile()));
+    replay.Estimate(recording, [&](const force_estimation::ForceEstimate& estimate) {
+      if (recording.steady_window_s && !recording.steady_window_s->Contains(estimate.t_s)) return;
+      const auto of_frame = ErrorsOf(estimate, recording);
+      if (of_frame) errors.emplace(std::pair(recording.name, estimate.t_s), *of_frame);
+    });
+  }
+  return errors;
+}
+
+/// RMS of the frames that both have.
+diagnosis::ForceError Compare(const ForceErrors& before, const ForceErrors& after) {
+  diagnosis::ForceError error;
+  double before_N2 = 0.0;
+  double after_N2 = 0.0;
+  std::string last;
+  for (const auto& [frame, before_N] : before) {
+    const auto same = after.find(frame);
+    if (same == after.end() || before_N.cols() == 0) continue;
+    before_N2 += before_N.squaredNorm();
+    after_N2 += same->second.squaredNorm();
+    error.forces += static_cast<int>(before_N.cols());
+    error.recordings += frame.first != last ? 1 : 0;
+    last = frame.first;
+  }
+  if (error.forces == 0) return error;
+  error.before_N = std::sqrt(before_N2 / error.forces);
+  error.after_N = std::sqrt(after_N2 / error.forces);
+  return error;
+}
+
+}  // namespace
+
+diagnosis::ForceError MeasureForceError(const robot::RobotDescription& robot,
+                                        const diagnosis::Diagnosis& diagnosis,
+                                        const experiment::Experiment& experiment,
+                                        const std::function<bool()>& stop_requested) {
+  const bool in_files = diagnosis.not_in_files.size() < diagnosis.result.causes.size();
+  if (!in_files || std::none_of(experiment.recordings.begin(), experiment.recordings.end(),
+                                HasKnownForces)) {
+    return {};
+  }
+  try {
+    return Compare(Estimate(robot, std::nullopt, experiment, stop_requested),
+                   Estimate(diagnosis.extended, diagnosis.calibration, experiment, stop_requested));
+  } catch (const InputError& error) {
+    diagnosis::ForceError unknown;
+    unknown.why_not = error.what();
+    return unknown;
+  }
+}
+
+}  // namespace palpate::command

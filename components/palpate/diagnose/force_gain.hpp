@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+
+#include "components/diagnosis/diagnose.hpp"
+#include "components/diagnosis/vocabulary/diagnosis_result.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/robot/robot_description.hpp"
+
+namespace palpate::command {
+
+/// Error of the forces that markers give at the known loads of an experiment, as `palpate estimate`
+/// does: with the robot file, and with the extended files of `diagnosis`. The same frames count in
+/// both. Without forces where no recording has markers and known loads, or the files hold no cause.
+/// Ends early where `stop_requested`; data that cannot be estimated from are said in `why_not`.
+diagnosis::ForceError MeasureForceError(const robot::RobotDescription& robot,
+                                        const diagnosis::Diagnosis& diagnosis,
+                                        const experiment::Experiment& experiment,
+                                        const std::function<bool()>& stop_requested);
+
+}  // namespace palpate::command
