@@ -57,6 +57,19 @@ CaseKind ParseKind(const std::string& text) {
       fmt::format("PALPATE_BLIND_KIND is '{}', none of: {}", text, fmt::join(kinds, ", ")));
 }
 
+/// Causes are drawn as large as they are seen on four_leg (cause_menu.hpp).
+void TakeRobot(const std::string& robot, BlindSet* set) {
+  if (robot != "four_leg" && robot != "rod") {
+    throw InputError(
+        fmt::format("PALPATE_BLIND_ROBOT is '{}', neither 'four_leg' nor 'rod'", robot));
+  }
+  if (robot == "rod" && set->kind.value_or(CaseKind::kHealthy) != CaseKind::kHealthy) {
+    throw InputError("PALPATE_BLIND_ROBOT 'rod' has cases of PALPATE_BLIND_KIND 'healthy' only");
+  }
+  set->robot = robot;
+  if (robot == "rod") set->kind = CaseKind::kHealthy;
+}
+
 }  // namespace
 
 BlindSet BlindSet::FromEnvironment(int cases) {
@@ -69,6 +82,7 @@ BlindSet BlindSet::FromEnvironment(int cases) {
   if (const char* folder = std::getenv("PALPATE_BLIND_FOLDER")) set.folder = folder;
   if (const char* data = std::getenv("PALPATE_BLIND_DATA")) set.measured = ParseMeasured(data);
   if (const char* kind = std::getenv("PALPATE_BLIND_KIND")) set.kind = ParseKind(kind);
+  if (const char* robot = std::getenv("PALPATE_BLIND_ROBOT")) TakeRobot(robot, &set);
   return set;
 }
 
@@ -82,12 +96,12 @@ std::vector<std::uint64_t> BlindSet::Seeds() const {
 
 std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
   fmt::print(out,
-             "{} blind cases{} of {} from seed {} on, {} moments each; one again: "
+             "{} blind cases of {}{} of {} from seed {} on, {} moments each; one again: "
              "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
-             set.cases, set.kind ? " (" + ToString(*set.kind) + ")" : "",
+             set.cases, set.robot, set.kind ? " (" + ToString(*set.kind) + ")" : "",
              set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
   const SetFolder folder(set.folder);
-  const CaseRunner runner({.robot_file = test_support::RobotFile("four_leg"),
+  const CaseRunner runner({.robot_file = test_support::RobotFile(set.robot),
                            .folder = folder.path(),
                            .keep = folder.keeps(),
                            .measured = set.measured,

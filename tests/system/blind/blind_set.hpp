@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
 #include "tests/system/blind/case_runner.hpp"
@@ -15,7 +16,8 @@ namespace palpate::blind {
 
 /// Which cases. From the environment: PALPATE_BLIND_CASES (1 to 100000), PALPATE_BLIND_SEED (of the
 /// first case, 0 to 2000000000; the next case has the next seed), PALPATE_BLIND_KIND (healthy, one
-/// cause, two causes, outside, corrupted: the next seeds of this kind alone), PALPATE_BLIND_FOLDER
+/// cause, two causes, outside, corrupted: the next seeds of this kind alone), PALPATE_BLIND_ROBOT
+/// (four_leg, or rod, of which there are healthy cases only), PALPATE_BLIND_FOLDER
 /// (everything is kept there; without it nothing is), PALPATE_BLIND_DATA (markers, or pictures).
 struct BlindSet {
   int cases = 0;
@@ -25,6 +27,7 @@ struct BlindSet {
   int minutes = 10;                   ///< after which it looks for no further cause
   Measured measured = Measured::kMarkers;
   std::optional<CaseKind> kind = {};  ///< none: all, in their mix
+  std::string robot = "four_leg";
 
   /// `cases`: where the environment does not say; the seed then is a fresh one. Throws InputError
   /// for what is none of this.

@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 using scenario::ActiveEffect;
 
 const std::string kNoEffects = "effects: []";
+const std::string kCoarserRod = "{mesh_file: rod_coarse.msh, refine: 0";
+const std::string kFinerRod = "{mesh_file: rod_coarse.msh, refine: 1";
 
 std::string ListOf(const std::vector<std::string>& words) {
   std::string text;
@@ -76,10 +78,12 @@ std::string WithRecordings(const std::string& scenario, const std::set<std::stri
 Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
     : robot_file_{std::move(robot_file)}, folder_{std::move(folder)}, measured_{measured} {
   const fs::path scenarios = fs::path(PALPATE_SOURCE_DIR) / "config/scenarios";
-  scenario_text_ = ReadFile(scenarios / "diagnose.yaml");
+  const std::string robot = robot_file_.stem().string();
+  scenario_text_ = ReadFile(scenarios / (robot == "rod" ? "diagnose_rod.yaml" : "diagnose.yaml"));
   PALPATE_CHECK(scenario_text_.find(kNoEffects) != std::string::npos);
-  fs::copy_file(scenarios / "four_leg_coarse.msh", folder_ / "four_leg_coarse.msh",
-                fs::copy_options::overwrite_existing);
+  for (const char* mesh : {"four_leg_coarse.msh", "rod_coarse.msh"}) {
+    fs::copy_file(scenarios / mesh, folder_ / mesh, fs::copy_options::overwrite_existing);
+  }
 }
 
 void Generator::Keep(const std::set<std::string>& recordings) {
@@ -102,6 +106,9 @@ void Generator::MakeFrom(const std::string& scenario_text, const std::vector<Act
     list += (list.empty() ? "" : ", ") + EffectText(effect);
   std::string text = scenario_text;
   text.replace(text.find(kNoEffects), kNoEffects.size(), "effects: [" + list + "]");
+  const std::size_t coarser = text.find(kCoarserRod);
+  if (coarser != std::string::npos && seed % 2 == 1)
+    text.replace(coarser, kCoarserRod.size(), kFinerRod);
   const std::string name = experiment.filename().string();
   const fs::path scenario = folder_ / (name + ".scenario.yaml");
   const fs::path log = folder_ / (name + ".simulate.log");
