@@ -211,7 +211,7 @@ Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticStat
   return Status::Ok();
 }
 
-Status SampleSolver::AnchorCompliance_m_N(fem::LoadState loads, HeldShape* shape) {
+Status SampleSolver::BalanceOnBase(fem::LoadState loads, HeldShape* shape) {
   base_turn_rad_.setZero();
   for (int round = 0; round < kMostRounds; ++round) {
     bool moved = false;
@@ -308,7 +308,7 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   state.multipliers_N.conservativeResizeLike(
       Eigen::VectorXd::Zero(ToIndex(model_.linearisation().constraints().size())));
   solved->middle.commands = Commands(taken_in);
-  solved->status = AnchorCompliance_m_N(LoadsOf(sample, solved->middle.commands), &solved->middle);
+  solved->status = BalanceOnBase(LoadsOf(sample, solved->middle.commands), &solved->middle);
   if (solved->status.ok()) See(sample, solved);
 }
 

@@ -67,7 +67,7 @@ class SampleSolver {
   std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
   std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
   Status Balance(const fem::LoadState& loads, HeldShape* shape);
-  Status AnchorCompliance_m_N(fem::LoadState loads, HeldShape* shape);
+  Status BalanceOnBase(fem::LoadState loads, HeldShape* shape);
   Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
   fem::LoadState LoadsOf(const Sample& sample,
                          const std::vector<robot::CableCommand>& commands) const;
