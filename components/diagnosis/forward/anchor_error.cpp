@@ -33,7 +33,7 @@ double ElementSize_m(const fem::TetMesh& mesh, int cell) {
 /// [places] m/N, along the cable; 0 where the part can move as a whole.
 Eigen::VectorXd Compliances_m_N(const MeshPart& part, const robot::RobotBody& body,
                                 const End& end) {
-  PartAtRest at_rest(part, body);
+  PartAtRest at_rest(part, body.mesh.element_type(), body);
   const fem::PointLocator locator(at_rest.mesh());
   const Eigen::Index count = std::ssize(end.places_m);
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * at_rest.mesh().NodeCount(), count);

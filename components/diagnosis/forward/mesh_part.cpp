@@ -125,8 +125,8 @@ void AddPointLoad(const fem::InterpolationWeights& point, const Eigen::Vector3d&
   }
 }
 
-PartAtRest::PartAtRest(const MeshPart& part, const robot::RobotBody& body)
-    : mesh_(InElement(part.mesh, body.mesh.element_type())),
+PartAtRest::PartAtRest(const MeshPart& part, fem::ElementType element, const robot::RobotBody& body)
+    : mesh_(InElement(part.mesh, element)),
       fixed_(Inherit(part.mesh, part.fixed, mesh_)),
       elastic_(mesh_, body.materials, part.material_of_cell),
       at_rest_(elastic_, {}, fixed_) {}

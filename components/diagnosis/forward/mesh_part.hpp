@@ -35,10 +35,10 @@ MeshPart Refined(const MeshPart& part);
 void AddPointLoad(const fem::InterpolationWeights& point, const Eigen::Vector3d& force_N,
                   Eigen::Ref<Eigen::VectorXd> nodal_N);
 
-/// The part in the element of the body, at rest, its stiffness factorised.
+/// The part at rest, its stiffness factorised.
 class PartAtRest {
  public:
-  PartAtRest(const MeshPart& part, const robot::RobotBody& body);
+  PartAtRest(const MeshPart& part, fem::ElementType element, const robot::RobotBody& body);
 
   const fem::TetMesh& mesh() const { return mesh_; }
   /// [3n x loads] m, of nodal loads [3n x loads], N, by the stiffness at rest; nothing where the

@@ -31,7 +31,7 @@ void AddCable(const robot::BodyCable& cable, const fem::PointLocator& locator,
 
 /// [3 points x loads] motion of markers and surface points, m.
 std::optional<Eigen::MatrixXd> PointMotion_m(const MeshPart& part, const robot::RobotBody& body) {
-  PartAtRest at_rest(part, body);
+  PartAtRest at_rest(part, fem::ElementType::kTet10, body);
   const fem::TetMesh& mesh = at_rest.mesh();
   const fem::PointLocator locator(mesh);
   const Eigen::Index cables = std::ssize(body.cables);

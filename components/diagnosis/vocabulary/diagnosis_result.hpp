@@ -102,7 +102,7 @@ struct ErrorSummary {
   double heldout_gain_high_m = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// RMS error of the vectors of forces that were estimated at known loads, N.
+/// RMS error of the sizes of known loads that were estimated, N.
 struct ForceError {
   int recordings = 0;
   int forces = 0;                                              ///< 0: none were compared

@@ -25,33 +25,32 @@ namespace {
 /// Frames of one recording tell its error well enough.
 constexpr double kMostFrames = 100.0;
 
-/// By recording, time and contact: estimated - known, N.
-using ForceErrors = std::map<std::pair<std::string, double>, Eigen::Matrix3Xd>;
+/// By recording and time: of each known load, estimated - known along it, N.
+using ForceErrors = std::map<std::pair<std::string, double>, Eigen::VectorXd>;
 
 bool HasKnownForces(const experiment::Recording& recording) {
-  return recording.markers && std::any_of(recording.loads.begin(), recording.loads.end(),
-                                          [](const experiment::KnownLoad& load) {
-                                            return !load.force_N.isZero(0.0);
-                                          });
+  return recording.markers &&
+         std::any_of(recording.loads.begin(), recording.loads.end(),
+                     [](const experiment::KnownLoad& load) { return !load.force_N.isZero(0.0); });
 }
 
-/// [3 x known loads] of one frame, N; nothing where the frame cannot be used. A frame that is
+/// [known loads] of one frame, N; nothing where the frame cannot be used. A frame that is
 /// explained without a force says that there is none.
-std::optional<Eigen::Matrix3Xd> ErrorsOf(const force_estimation::ForceEstimate& estimate,
-                                         const experiment::Recording& recording) {
+std::optional<Eigen::VectorXd> ErrorsOf(const force_estimation::ForceEstimate& estimate,
+                                        const experiment::Recording& recording) {
   const bool none = estimate.status.code() == StatusCode::kNoContact;
   if (!force_estimation::IsUsable(estimate.status)) return std::nullopt;
   const auto sites = force_estimation::SitesOfLoads(recording.loads, estimate.t_s);
-  Eigen::Matrix3Xd errors_N(3, std::ssize(sites));
+  Eigen::VectorXd errors_N(std::ssize(sites));
   Eigen::Index known = 0;
   for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, estimate.t_s)) {
     if (load.force_N.isZero(0.0)) continue;
     const std::string& name = sites[static_cast<std::size_t>(known)].name;
-    const auto found =
-        std::find_if(estimate.contacts.begin(), estimate.contacts.end(),
-                     [&](const auto& contact) { return contact.name == name; });
+    const auto found = std::find_if(estimate.contacts.begin(), estimate.contacts.end(),
+                                    [&](const auto& contact) { return contact.name == name; });
     if (!none && found == estimate.contacts.end()) return std::nullopt;
-    errors_N.col(known++) = (none ? Eigen::Vector3d::Zero() : found->force_N) - load.force_N;
+    const Eigen::Vector3d force_N = none ? Eigen::Vector3d::Zero() : found->force_N;
+    errors_N[known++] = (force_N - load.force_N).dot(load.force_N.normalized());
   }
   return errors_N;
 }
@@ -78,7 +77,8 @@ ForceErrors Estimate(const robot::RobotDescription& robot,
                                .model = &model,
                                .cable_input = kInput,
                                .limits = {rate_Hz, stop_requested},
-                               .tare = &tare},
+                               .tare = &tare,
+                               .knows_directions = true},
                               config, calibration.value_or(robot::CalibrationFile()));
     replay.Estimate(recording, [&](const force_estimation::ForceEstimate& estimate) {
       if (recording.steady_window_s && !recording.steady_window_s->Contains(estimate.t_s)) return;
@@ -97,10 +97,10 @@ diagnosis::ForceError Compare(const ForceErrors& before, const ForceErrors& afte
   std::string last;
   for (const auto& [frame, before_N] : before) {
     const auto same = after.find(frame);
-    if (same == after.end() || before_N.cols() == 0) continue;
+    if (same == after.end() || before_N.size() == 0) continue;
     before_N2 += before_N.squaredNorm();
     after_N2 += same->second.squaredNorm();
-    error.forces += static_cast<int>(before_N.cols());
+    error.forces += static_cast<int>(before_N.size());
     error.recordings += frame.first != last ? 1 : 0;
     last = frame.first;
   }
@@ -117,8 +117,8 @@ diagnosis::ForceError MeasureForceError(const robot::RobotDescription& robot,
                                         const experiment::Experiment& experiment,
                                         const std::function<bool()>& stop_requested) {
   const bool in_files = diagnosis.not_in_files.size() < diagnosis.result.causes.size();
-  if (!in_files || std::none_of(experiment.recordings.begin(), experiment.recordings.end(),
-                                HasKnownForces)) {
+  if (!in_files ||
+      std::none_of(experiment.recordings.begin(), experiment.recordings.end(), HasKnownForces)) {
     return {};
   }
   try {

@@ -69,6 +69,15 @@ Status MeanMarkers(const std::vector<const MarkerFrame*>& frames, ReferenceShape
   return Status::Ok();
 }
 
+void TakeDirections(const std::vector<experiment::KnownLoad>& loads, double t_s,
+                    std::vector<force_estimation::ContactSite>* sites) {
+  for (const experiment::KnownLoad& load : experiment::LoadsAt(loads, t_s)) {
+    for (force_estimation::ContactSite& site : *sites) {
+      if (site.position_m == load.position_m) site.direction = load.force_N.normalized();
+    }
+  }
+}
+
 }  // namespace
 
 /// Frames of a reference shape count as displacements, a rest recording without one as positions.
@@ -127,6 +136,7 @@ ReplayCount MarkerReplay::Estimate(const experiment::Recording& recording,
   for (MarkerFrame& frame : frames) {
     if (inputs_.limits.StopRequested()) break;
     frame.loads = force_estimation::SitesOfLoads(recording.loads, frame.t_s);
+    if (inputs_.knows_directions) TakeDirections(recording.loads, frame.t_s, &frame.loads);
     take(pipeline.Update(std::move(frame)).estimate);
     progress.Update(++count.done);
   }

@@ -31,6 +31,7 @@ class MarkerReplay {
     robot::CableInput cable_input = robot::CableInput::kDisplacement;
     ReplayLimits limits{};
     const MarkerTare* tare = nullptr;  ///< none: no offsets without a rest window
+    bool knows_directions = false;     ///< of known loads: only their sizes are estimated
   };
 
   MarkerReplay(const Inputs& inputs, const force_estimation::Config& config,

@@ -53,7 +53,7 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   const std::string all = VerdictParagraph(FrictionExample());
   EXPECT_THAT(all, HasSubstr("Explains: 83 % of the misfit beyond noise and tolerances."));
   EXPECT_THAT(all, HasSubstr("Left-out error, without and with: 0.52"));
-  EXPECT_THAT(all, HasSubstr("Force error at known loads, without and with: 0.12 \u2192 0.031 N "
+  EXPECT_THAT(all, HasSubstr("Force error at known loads, without and with: 0.120 \u2192 0.0310 N "
                              "(RMS, 140 forces in 2 recordings)"));
   EXPECT_THAT(all, HasSubstr(" mm (noise 0.300 mm), a gain of 0."));
   EXPECT_THAT(
