@@ -54,9 +54,8 @@ class MultifrontalSolver final : public SparseSolver {
     team_.Run([&](int thread) {
       for (const int f : schedule_.own[At(thread)])
         FactorFront(f, values.data(), panels_[At(thread)]);
-      team_.Barrier();
-      for (const int f : schedule_.together) FactorFrontTogether(f, values.data(), thread);
     });
+    for (const int f : schedule_.together) FactorFrontTogether(f, values.data());
     has_factor_ = positive_.load(std::memory_order_relaxed);
     has_single_ = has_factor_ && factor_.has_room_for_single();
     if (has_factor_) return Status::Ok();
@@ -123,7 +122,8 @@ class MultifrontalSolver final : public SparseSolver {
   }
 
   void FactorFront(int f, const double* values, internal::AlignedBuffer& room);
-  void FactorFrontTogether(int f, const double* values, int thread);
+  void FactorFrontTogether(int f, const double* values);
+  void FactorPassTogether(const Panel& panel, int begin, int end, double* inverse);
   void AssemblePanel(int f, const double* values, const Panel& panel, int column_begin,
                      int column_end);
   void AddChildren(int f, const Panel& panel, int column_begin, int column_end);
@@ -215,52 +215,66 @@ void MultifrontalSolver::Store(int f, const Panel& panel, int tile_begin, int ti
 }
 
 /// The same steps in the same order on each entry, the rows shared among the threads.
-void MultifrontalSolver::FactorFrontTogether(int f, const double* values, int thread) {
+void MultifrontalSolver::FactorFrontTogether(int f, const double* values) {
   const Panel panel = PanelOf(f, shared_panel_);
   const int threads = team_.Size();
-  const int rows = panel.Rows();
   double* inverse = factor_.inverse() + 3 * FrontOf(f).first_node;
   // Whole nodes stay together.
   const auto part = [&](int columns, int k) { return columns / 3 * k / threads * 3; };
-  AssemblePanel(f, values, panel, part(panel.pivots, thread), part(panel.pivots, thread + 1));
-  team_.Barrier();
-  alignas(64) double tile[kTile * kTile];
-  double tile_inverse[kTile];
+  team_.Run([&](int thread) {
+    AssemblePanel(f, values, panel, part(panel.pivots, thread), part(panel.pivots, thread + 1));
+  });
   for (int begin = 0; begin < panel.pivots; begin += kPassColumns) {
-    const int end = std::min(begin + kPassColumns, panel.pivots);
-    for (int first = begin; first < end; first += kTile) {
-      const int width = std::min(kTile, end - first);
+    FactorPassTogether(panel, begin, std::min(begin + kPassColumns, panel.pivots), inverse);
+  }
+  const int update_rows = dense::PaddedRows(panel.below);
+  const int tiles = panel.Rows() / kTile;
+  team_.Run([&](int thread) {
+    for (int row = kSharedRows * thread; row < update_rows; row += kSharedRows * threads) {
+      kernels_.update_below(panel, UpdateOf(f), row, std::min(row + kSharedRows, update_rows));
+    }
+    Store(f, panel, tiles * thread / threads, tiles * (thread + 1) / threads);
+  });
+  team_.Run([&](int thread) {
+    AddChildren(f, panel, panel.PivotRows() + part(panel.below, thread),
+                panel.PivotRows() + part(panel.below, thread + 1));
+  });
+}
+
+void MultifrontalSolver::FactorPassTogether(const Panel& panel, int begin, int end,
+                                            double* inverse) {
+  const int threads = team_.Size();
+  const int rows = panel.Rows();
+  for (int first = begin; first < end; first += kTile) {
+    const int width = std::min(kTile, end - first);
+    const int tiles = (rows - first) / kTile - 1;
+    alignas(64) double tile_of_caller[kTile * kTile];
+    double inverse_of_caller[kTile];
+    team_.Run([&](int thread) {
       // Every thread takes the tile's factor for itself: cheaper than to wait for another.
+      alignas(64) double own_tile[kTile * kTile];
+      double own_inverse[kTile];
+      double* tile = thread == 0 ? tile_of_caller : own_tile;
+      double* tile_inverse = thread == 0 ? inverse_of_caller : own_inverse;
       if (!kernels_.factor_tile(panel, begin, first, width, tile, tile_inverse)) {
         positive_.store(false, std::memory_order_relaxed);
       }
-      const int tiles = (rows - first) / kTile - 1;
       kernels_.eliminate_rows(panel, begin, first, width, tile, tile_inverse,
                               first + kTile + kTile * (tiles * thread / threads),
                               first + kTile + kTile * (tiles * (thread + 1) / threads));
-      team_.Barrier();
-      if (thread != 0) continue;
-      std::copy_n(tile_inverse, width, inverse + first);
-      for (int c = 0; c < width; ++c) {
-        std::copy_n(tile + c * kTile, kTile, panel.values + (first + c) * panel.stride + first);
-      }
+    });
+    std::copy_n(inverse_of_caller, width, inverse + first);
+    for (int c = 0; c < width; ++c) {
+      std::copy_n(tile_of_caller + c * kTile, kTile,
+                  panel.values + (first + c) * panel.stride + first);
     }
+  }
+  team_.Run([&](int thread) {
     for (int row = end + kSharedRows * thread; row < rows; row += kSharedRows * threads) {
       kernels_.update_pivots(panel, begin, end, end, panel.pivots, row,
                              std::min(row + kSharedRows, rows));
     }
-    team_.Barrier();
-  }
-  const int update_rows = dense::PaddedRows(panel.below);
-  for (int row = kSharedRows * thread; row < update_rows; row += kSharedRows * threads) {
-    kernels_.update_below(panel, UpdateOf(f), row, std::min(row + kSharedRows, update_rows));
-  }
-  const int tiles = rows / kTile;
-  Store(f, panel, tiles * thread / threads, tiles * (thread + 1) / threads);
-  team_.Barrier();
-  AddChildren(f, panel, panel.PivotRows() + part(panel.below, thread),
-              panel.PivotRows() + part(panel.below, thread + 1));
-  team_.Barrier();
+  });
 }
 
 }  // namespace

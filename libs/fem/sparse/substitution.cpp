@@ -158,9 +158,10 @@ void Substitution::SolveBlocks(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded
     for (const int f : own) {
       for (const Block& block : all) Forward(f, block);
     }
-    team_.Barrier();
-    if (thread == 0) SolveShared(all, columns);
-    team_.Barrier();
+  });
+  SolveShared(all, columns);
+  team_.Run([&](int thread) {
+    const std::vector<int>& own = schedule_.own[At(thread)];
     for (auto f = own.rbegin(); f != own.rend(); ++f) {
       for (const Block& block : all) {
         Backward(*f, block, thread);
