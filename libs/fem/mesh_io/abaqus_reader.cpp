@@ -197,13 +197,21 @@ class AbaqusReader {
     return value;
   }
 
+  /// Fortran's exponents are read, too: "1.5D-3".
+  static bool ParseReal(std::string_view text, double* value) {
+    std::string number(text);
+    std::replace_if(
+        number.begin(), number.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
+    return ParseFinite(number, value);
+  }
+
   void TakeNode() {
     const auto parts = Split(line_);
     if (parts.size() < 4) Fail("a node has a number and three coordinates");
     const int64_t number = Integer(parts[0], "a node");
     std::array<double, 3> x{};
     for (size_t axis = 0; axis < 3; ++axis) {
-      if (!ParseFinite(parts[axis + 1], &x[axis])) {
+      if (!ParseReal(parts[axis + 1], &x[axis])) {
         Fail("a coordinate: '" + Excerpt(parts[axis + 1]) + "' is not a finite number");
       }
     }

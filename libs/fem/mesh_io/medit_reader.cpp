@@ -18,9 +18,20 @@ namespace {
 class MeditReader {
  public:
   MeditReader(std::string_view bytes, MeshBuilder* builder)
-      : scanner_(builder->file(), bytes), builder_(builder) {}
+      : bytes_(bytes), scanner_(builder->file(), bytes), builder_(builder) {}
 
+  /// Sections may come in any order: tetrahedra before their vertices are read once these are
+  /// known.
   void Read() {
+    ReadSections();
+    if (!missed_tetrahedra_) return;
+    scanner_ = Scanner(builder_->file(), bytes_);
+    knows_vertices_ = true;
+    ReadSections();
+  }
+
+ private:
+  void ReadSections() {
     if (Word("MeshVersionFormatted") != "MeshVersionFormatted") {
       scanner_.Fail("is no Medit mesh: it must begin with MeshVersionFormatted");
     }
@@ -30,7 +41,6 @@ class MeditReader {
     }
   }
 
- private:
   /// Words behind # are a comment.
   std::string WordOrEnd() {
     std::string word(scanner_.TokenOrEnd());
@@ -51,7 +61,9 @@ class MeditReader {
     if (name == "Dimension") {
       if (scanner_.TextInteger(1, 3, "the dimension") != 3) scanner_.Fail("only 3-D is read");
     } else if (name == "Vertices") {
-      ReadVertices();
+      if (!knows_vertices_) ReadVertices();
+    } else if (name.starts_with("Tetrahedra") && builder_->NodeCount() == 0) {
+      missed_tetrahedra_ = true;
     } else if (name == "Tetrahedra") {
       ReadTetrahedra(ElementType::kTet4);
     } else if (name == "TetrahedraP2") {
@@ -102,8 +114,11 @@ class MeditReader {
     }
   }
 
+  std::string_view bytes_;
   Scanner scanner_;
   MeshBuilder* builder_;
+  bool missed_tetrahedra_ = false;
+  bool knows_vertices_ = false;
 };
 
 }  // namespace

@@ -152,18 +152,30 @@ void ReadCells(const XMLElement& piece, const VtuStorage& storage, int64_t count
 }
 
 /// Arrays of whole numbers name groups of cells; the others are no matter of the mesh.
+/// Some programs write region numbers as reals. Reals that are none, such as a field with NaN, are
+/// no matter of the mesh.
+std::vector<double> CellValues(const XMLElement& array, const VtuStorage& storage, int64_t count) {
+  if (IsIntegerArray(array)) {
+    const LargeVector<int64_t> integers = ReadIntegerArray(array, storage, count);
+    return {integers.begin(), integers.end()};
+  }
+  try {
+    const LargeVector<double> reals = ReadRealArray(array, storage, count);
+    return {reals.begin(), reals.end()};
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 void ReadCellData(const XMLElement& piece, const VtuStorage& storage, int64_t count,
                   MeshBuilder* builder) {
   const XMLElement* data = piece.FirstChildElement("CellData");
   if (data == nullptr) return;
   for (const XMLElement* array = data->FirstChildElement("DataArray"); array != nullptr;
        array = array->NextSiblingElement("DataArray")) {
-    const std::string_view components = AttributeOr(*array, "NumberOfComponents", "1");
-    if (components != "1" || !IsIntegerArray(*array)) continue;
-    const LargeVector<int64_t> integers = ReadIntegerArray(*array, storage, count);
-    const std::vector<double> values(integers.begin(), integers.end());
+    if (AttributeOr(*array, "NumberOfComponents", "1") != "1") continue;
     builder->AddVtkCellData(std::string(AttributeOr(*array, "Name", "cells")),
-                            builder->VtkCellCount() - count, values);
+                            builder->VtkCellCount() - count, CellValues(*array, storage, count));
   }
 }
 

@@ -253,6 +253,40 @@ TEST(MeshFormats, MeditGivesTetrahedraAndTheirReferences) {
               HasSubstr("only 3-D"));
 }
 
+TEST(MeshFormats, MeditSectionsComeInAnyOrder) {
+  const std::string text = kMedit;
+  const size_t vertices = text.find("Vertices");
+  const size_t others = text.find("Triangles");
+  const size_t end = text.find("End");
+  const std::string last = text.substr(0, vertices) + text.substr(others, end - others) +
+                           text.substr(vertices, others - vertices) + "End\n";
+  const TetMesh mesh = ReadBytes({"m.mesh", last});
+  EXPECT_TRUE(test::SameMesh(mesh, ReadBytes({"m.mesh", text})));
+  EXPECT_EQ(mesh.groups, ReadBytes({"m.mesh", text}).groups);
+  EXPECT_THAT(RefusalOf({"m.mesh", Replaced(last, "1 3 2 5 6", "1 3 2 9 6")}),
+              HasSubstr("9 is outside 1 to 5"));
+}
+
+TEST(MeshFormats, AbaqusKnowsFortransExponents) {
+  const TetMesh mesh = ReadBytes({"m.inp", Replaced(kAbaqus, "20, 1.,", "20, 0.1D+01,")});
+  EXPECT_TRUE(test::SameMesh(mesh, ReadBytes({"m.inp", kAbaqus})));
+}
+
+TEST(MeshFormats, RealsOfVtuCellDataNameGroupsWhereTheyAreWhole) {
+  const TetMesh mesh = ReadBytes({"m.inp", kAbaqus});
+  const auto with = [&](const std::string& values) {
+    return Replaced(
+        test::AsciiVtu(mesh), "</Cells>",
+        "</Cells><CellData><DataArray type=\"Float64\" Name=\"region\" format=\"ascii\">" + values +
+            "</DataArray></CellData>");
+  };
+  EXPECT_THAT(ReadBytes({"m.vtu", with("2.0 3")}).groups,
+              ElementsAre(CellGroup{"region=2", {0}}, CellGroup{"region=3", {1}}));
+  for (const char* none : {"0.5 3", "nan 1"}) {
+    EXPECT_TRUE(ReadBytes({"m.vtu", with(none)}).groups.empty()) << none;
+  }
+}
+
 TEST(MeshFormats, WholeNumbersInCellDataNameGroups) {
   const std::string vtk = test::AsciiVtk(CubeMesh(1)) +
                           "\nCELL_DATA 6\nSCALARS material int 1\nLOOKUP_TABLE default\n"
