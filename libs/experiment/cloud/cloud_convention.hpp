@@ -13,11 +13,11 @@ namespace palpate::experiment {
 /// How a program writes the points of a camera that looks along +z, in metres, y down.
 struct CloudConvention {
   bool y_and_z_negated = false;  ///< RealSense Viewer and rs-convert: y up, z backwards
-  bool millimetres = false;      ///< Zivid, Azure Kinect
+  double unit_m = 1.0;           ///< 0.001: Zivid, Azure Kinect; 0.01: modelling programs
 };
 
-/// What the points show: all behind the camera, or half of them farther than 50 m. nullopt: there
-/// are no points.
+/// What the points show: all behind the camera, or half of them farther from it than a depth camera
+/// sees a robot. Then the unit is what makes that distance one. nullopt: there are no points.
 std::optional<CloudConvention> ConventionOf(const PointCloud& cloud);
 
 /// One sentence; empty for metres in the optical frame.

@@ -71,7 +71,7 @@ class PcdReader {
 
   PointCloud Read() {
     ReadHeader();
-    CloudBuilder builder(header_.width, header_.height, Color() != nullptr);
+    CloudBuilder builder(header_.width, header_.height, Color() || Channels());
     if (header_.data == Data::kAscii) {
       ReadAscii(&builder);
     } else if (header_.data == Data::kBinary) {
@@ -94,6 +94,26 @@ class PcdReader {
     const Field* color = header_.Find("rgb");
     if (color == nullptr) color = header_.Find("rgba");
     return color != nullptr && color->scalar.bytes == 4 ? color : nullptr;
+  }
+
+  /// Red, green and blue in fields of their own, whole numbers.
+  std::optional<std::array<const Field*, 3>> Channels() const {
+    const std::array channels = {header_.Find("r"), header_.Find("g"), header_.Find("b")};
+    const bool whole = std::all_of(channels.begin(), channels.end(), [](const Field* field) {
+      return field != nullptr && field->count == 1 && field->scalar.kind != Scalar::Kind::kFloat;
+    });
+    if (!whole) return std::nullopt;
+    return channels;
+  }
+
+  /// `value` of a field, a number.
+  template <typename Value>
+  static std::uint64_t Joined(const std::array<const Field*, 3>& channels, const Value& value) {
+    std::uint64_t color = 0;
+    for (const Field* channel : channels) {
+      color = color << 8 | static_cast<std::uint64_t>(std::clamp(value(*channel), 0.0, 255.0));
+    }
+    return color;
   }
 
   void ReadHeader() {
@@ -232,6 +252,7 @@ class PcdReader {
   void ReadAscii(CloudBuilder* builder) {
     CheckSize(header_.points * (2 * header_.point_words - 1), rest_.size());
     std::vector<double> values(header_.point_words);
+    const auto channels = Channels();
     for (std::uint64_t i = 0; i < header_.points; ++i) {
       std::string_view line = TakeLine(&rest_);
       ++line_;
@@ -240,6 +261,9 @@ class PcdReader {
       builder->Add({value("x"), value("y"), value("z")});
       if (const Field* color = Color()) {
         builder->AddColor(PackedColor(color->scalar, values[color->column]));
+      } else if (channels) {
+        builder->AddColor(
+            Joined(*channels, [&](const Field& field) { return values[field.column]; }));
       }
     }
   }
@@ -289,6 +313,7 @@ class PcdReader {
     const std::array<const Field*, 3> axes = {header_.Find("x"), header_.Find("y"),
                                               header_.Find("z")};
     const Field* color = Color();
+    const auto channels = Channels();
     for (std::uint64_t i = 0; i < header_.points; ++i) {
       Eigen::Vector3d point;
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -298,6 +323,10 @@ class PcdReader {
       builder->Add(point);
       if (color != nullptr) {
         builder->AddColor(color->scalar.LoadBits(place(*color, i), ByteOrder::kLittle));
+      } else if (channels) {
+        builder->AddColor(Joined(*channels, [&](const Field& field) {
+          return field.scalar.Load(place(field, i), ByteOrder::kLittle);
+        }));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 namespace palpate::experiment {
 namespace {
@@ -30,7 +31,8 @@ Eigen::Matrix3Xd Points() {
 TEST(CloudConvention, MetresInTheOpticalFrameStayAsTheyAre) {
   const auto found = ConventionOf(Cloud(Points()));
   ASSERT_TRUE(found.has_value());
-  EXPECT_FALSE(found->y_and_z_negated || found->millimetres);
+  EXPECT_FALSE(found->y_and_z_negated);
+  EXPECT_EQ(found->unit_m, 1.0);
   EXPECT_EQ(ToText(*found), "");
 }
 
@@ -39,18 +41,22 @@ TEST(CloudConvention, PointsBehindTheCameraAreTurnedAsTheRealSenseViewerHasThem)
   points.bottomRows<2>() *= -1.0;
   PointCloud cloud = Cloud(points);
   const auto found = ConventionOf(cloud);
-  ASSERT_TRUE(found && found->y_and_z_negated && !found->millimetres);
+  ASSERT_TRUE(found && found->y_and_z_negated && found->unit_m == 1.0);
   EXPECT_THAT(ToText(*found), testing::HasSubstr("RealSense Viewer"));
   ToOpticalFrame(*found, &cloud);
   EXPECT_EQ(cloud.points_m.leftCols(2), Points().leftCols(2));
 }
 
-TEST(CloudConvention, MillimetresAreSeenByTheDistance) {
-  PointCloud cloud = Cloud(1e3 * Points());
-  const auto found = ConventionOf(cloud);
-  ASSERT_TRUE(found && found->millimetres && !found->y_and_z_negated);
-  ToOpticalFrame(*found, &cloud);
-  EXPECT_TRUE(cloud.points_m.leftCols(2).isApprox(Points().leftCols(2)));
+TEST(CloudConvention, TheUnitIsSeenByTheDistance) {
+  for (const auto& [unit_m, name] : {std::pair{0.001, "millimetres"}, {0.01, "centimetres"}}) {
+    PointCloud cloud = Cloud(Points() / unit_m);
+    const auto found = ConventionOf(cloud);
+    ASSERT_TRUE(found && !found->y_and_z_negated);
+    EXPECT_EQ(found->unit_m, unit_m);
+    EXPECT_THAT(ToText(*found), testing::HasSubstr(name));
+    ToOpticalFrame(*found, &cloud);
+    EXPECT_TRUE(cloud.points_m.leftCols(2).isApprox(Points().leftCols(2)));
+  }
 }
 
 TEST(CloudConvention, AnEmptyCloudShowsNone) {

@@ -143,6 +143,16 @@ TEST(Pcd, ReadsAColourPackedInAFloatOfText) {
   EXPECT_THAT(cloud.colors_rgb, ElementsAre(0xaa, 0x55, 0x01));
 }
 
+TEST(Pcd, ReadsColoursInFieldsOfTheirOwn) {
+  const std::string head =
+      "FIELDS x y z r g b\nSIZE 4 4 4 1 1 1\nTYPE F F F U U U\nWIDTH 1\nHEIGHT 1\nDATA ";
+  EXPECT_THAT(ReadText("a.pcd", head + "ascii\n1 2 3 10 20 255\n").colors_rgb,
+              ElementsAre(10, 20, 255));
+  const std::string binary(12, '\0');
+  EXPECT_THAT(ReadText("a.pcd", head + "binary\n" + binary + "\x0a\x14\xff").colors_rgb,
+              ElementsAre(10, 20, 255));
+}
+
 TEST(Pcd, ReadsAColourPackedInAnIntegerOfTextUnderAnyType) {
   for (const std::string type : {"F", "U", "I"}) {
     const PointCloud cloud =
