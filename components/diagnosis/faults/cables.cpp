@@ -55,8 +55,8 @@ void MakeCableFriction(const CatalogueInputs& inputs, std::vector<FaultModelPtr>
 
 namespace {
 
-/// What a nominal robot's cable has of it, m/N: half a metre of steel rope of 0.5 mm. Most are stiffer
-/// than the body by far, and the mesh has more of it.
+/// What a nominal robot's cable has of it, m/N: half a metre of steel rope of 0.5 mm. Most are
+/// stiffer than the body by far, and the mesh has more of it.
 constexpr double kOfCable_m_N = 1e-5;
 
 /// z is the compliance, m/N.
