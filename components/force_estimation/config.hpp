@@ -59,7 +59,8 @@ struct Config {
     v("adhesion", adhesion,
       "Whether a contact found by search may pull; false: contacts push on the outer surface");
     v("friction_sigma", friction_sigma, {.min = 0.0, .min_open = true},
-      "Standard deviation of the ratio of tangential to normal force of a contact found by search");
+      "Standard deviation of the ratio of tangential to normal force of a contact found by search, "
+      "and of one whose tangential force the markers do not determine");
     v("max_iterations", max_iterations, {.min = 1.0, .max = 1000.0},
       "Largest number of linearisations per frame");
     v("frame_tolerance", frame_tolerance, {.min = 1e-11, .max = 0.1},

@@ -108,6 +108,11 @@ bool IsUsable(const Status& status) {
   return status.ok() || status.code() == StatusCode::kNoContact;
 }
 
+double HalfWidthAlong95_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2) {
+  const Eigen::Vector3d along = force_N.normalized();
+  return kSigmas95 * std::sqrt(std::max(0.0, along.dot(covariance_N2 * along)));
+}
+
 double HalfWidth95_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2) {
   const double size_N = force_N.norm();
   if (size_N > 0.0) {
@@ -123,6 +128,17 @@ double HalfWidth95_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& cova
     }
   }
   return SampledHalfWidth_N(force_N, covariance_N2);
+}
+
+void SetInterval(double uncertain_share, ContactForce* contact) {
+  const double wide_N = uncertain_share * contact->force_N.norm();
+  if (contact->status.code() == StatusCode::kTangentialUnobservable) {
+    contact->ci95_N = HalfWidthAlong95_N(contact->force_N, contact->covariance_N2);
+    if (contact->ci95_N <= wide_N) return;
+  }
+  contact->ci95_N = HalfWidth95_N(contact->force_N, contact->covariance_N2);
+  const bool acts = contact->status.code() != StatusCode::kNoContact;
+  if (acts && contact->ci95_N > wide_N) contact->status = Status(StatusCode::kUncertain, {});
 }
 
 }  // namespace palpate::force_estimation

@@ -19,8 +19,12 @@ struct ContactForce {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< on the deformed body, robot frame
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();     ///< acts on the robot, robot frame
+  /// Robot frame. Along tangents that the data do not determine it has the prior's variance, by
+  /// friction; across a direction that was given it is zero; NaN where kUnobservable.
   Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();
-  double ci95_N = 0.0;           ///< half-width of the 95 % interval of |F|
+  /// Half-width of the 95 % interval of |F|, from covariance_N2. From markers with
+  /// kTangentialUnobservable: of the component along force_N.
+  double ci95_N = 0.0;
   double location_ci95_m = 0.0;  ///< 0 where the site was given
 };
 
@@ -53,5 +57,12 @@ bool IsUsable(const Status& status);
 /// standard deviations along the force. Of a small one |F| is no linear function and is estimated
 /// too large: Neyman's interval then, over a fixed quasi-random sample; its longer side counts.
 double HalfWidth95_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2);
+/// The same of the component along `force_N`, which must not be zero: 1.96 standard deviations.
+double HalfWidthAlong95_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2);
+
+/// Sets ci95_N of a force from markers by its covariance: of the component along the normal where
+/// that alone is known well, else of |F|. Friction that the markers do not determine may change the
+/// normal component, too. Above the share `uncertain_share` of |F| the force is kUncertain.
+void SetInterval(double uncertain_share, ContactForce* contact);
 
 }  // namespace palpate::force_estimation

@@ -141,6 +141,7 @@ class MarkerForceEstimator::Impl {
   void PublishState(const ModelState& state);
   void Withdraw();
   void HideContacts();
+  double TangentialSigma_N(const ForceFit& fit, size_t site) const;
   ContactForce MakeContact(const ForceFit& fit, size_t index, double inflation) const;
   Eigen::MatrixXd ResponseOfSearched(const std::vector<FitSite>& sites);
   Eigen::MatrixXd ForcesOfPose_N(const ForceFit& fit, const std::vector<FitSite>& sites);
@@ -521,6 +522,18 @@ void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<
   }
 }
 
+/// By friction, from the root mean square of the push: never zero, as the push is not known
+/// exactly.
+double MarkerForceEstimator::Impl::TangentialSigma_N(const ForceFit& fit, size_t site) const {
+  const ModelState& state = Searches() ? search_->result().state : state_;
+  const std::vector<FitSite>& sites = Searches() ? search_->result().fit_sites : fit_sites_;
+  const auto row = ToIndex(3 * site);
+  const Eigen::Vector3d normal = sites[site].patch.normal;
+  const double push_N = normal.dot(state.lambda_f_N.segment<3>(row));
+  const double variance_N2 = normal.dot(fit.covariance_N2.block<3, 3>(row, row) * normal);
+  return config_.friction_sigma * std::sqrt(push_N * push_N + variance_N2);
+}
+
 ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t index,
                                                      double inflation) const {
   const ModelState& state = Searches() ? search_->result().state : state_;
@@ -538,6 +551,7 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t
     case Observability::kNone:
       contact.status = Status(StatusCode::kUnobservable, {});
       contact.force_N.setConstant(std::numeric_limits<double>::quiet_NaN());
+      contact.covariance_N2.setConstant(std::numeric_limits<double>::quiet_NaN());
       contact.ci95_N = std::numeric_limits<double>::quiet_NaN();
       return contact;
     case Observability::kNormal:
@@ -549,12 +563,11 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t
   const bool acts =
       SquaredDistanceFromZero(contact) > ChiSquaredQuantile(1.0 - config_.significance, unknowns);
   if (!acts) contact.status = Status(StatusCode::kNoContact, {});
-  // Where nothing acts a location has no meaning, so that the test is without its uncertainty.
+  // Where nothing acts a location and friction have no meaning: the test is without them.
   if (Searches()) contact.covariance_N2 += search_->result().location_covariance_N2[index];
-  contact.ci95_N = HalfWidth95_N(contact.force_N, contact.covariance_N2);
-  if (acts && contact.ci95_N > config_.uncertain_share * contact.force_N.norm()) {
-    contact.status = Status(StatusCode::kUncertain, {});
-  }
+  contact.covariance_N2 +=
+      UnfittedCovariance_N2(fit, index, [&](size_t site) { return TangentialSigma_N(fit, site); });
+  SetInterval(config_.uncertain_share, &contact);
   return contact;
 }
 

@@ -136,6 +136,7 @@ void SnapshotBuilder::Add(const idl::palpate_msgs::ForceArray& message, double n
                             .position_m = ToVector(force.position_m),
                             .force_N = ToVector(force.force_n),
                             .ci95_N = force.ci95_n,
+                            .covariance_N2 = Eigen::Matrix3d::Map(force.covariance_n2),
                             .location_ci95_m = force.location_ci95_m});
   }
 }

@@ -22,6 +22,15 @@ Json Numbers(const Eigen::Vector3d& vector) {
   return {Number(vector.x()), Number(vector.y()), Number(vector.z())};
 }
 
+/// Rows of three.
+Json Numbers(const Eigen::Matrix3d& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    rows.push_back(Numbers(Eigen::Vector3d(matrix.row(row))));
+  }
+  return rows;
+}
+
 /// The fields of a topic's flow, to which others are added.
 Json FlowJson(const TopicFlow& flow) {
   return {{"rate_hz", Number(flow.rate_hz)},
@@ -40,6 +49,7 @@ Json ToJson(const ForceState& force) {
           {"size_N", Number(force.force_N.norm())},
           {"ci95_N", Number(force.ci95_N)},
           {"force_robot_N", Numbers(force.force_N)},
+          {"covariance_robot_N2", Numbers(force.covariance_N2)},
           {"position_robot_m", Numbers(force.position_m)},
           {"location_ci95_m", Number(force.location_ci95_m)},
           {"status", force.status},

@@ -59,6 +59,7 @@ struct ForceState {
   Eigen::Vector3d position_m;  ///< on the deformed body, robot frame
   Eigen::Vector3d force_N;     ///< on the robot, robot frame; NaN: unobservable
   double ci95_N = 0.0;         ///< half-width of the 95 % interval of |F|
+  Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();  ///< of force_N, robot frame
   double location_ci95_m = 0.0;
 };
 

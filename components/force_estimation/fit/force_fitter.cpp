@@ -115,6 +115,8 @@ void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
   const auto forces = ToIndex(3 * sites.size());
   new_lambda_f_ = Eigen::VectorXd::Zero(forces);
   fit_.covariance_N2 = Eigen::MatrixXd::Zero(forces, forces);
+  fit_.unfitted_error = fem::QpMatrix::Zero(forces, 0);
+  fit_.unfitted_sites.clear();
   fit_.modulus_sensitivity_N = Eigen::VectorXd::Zero(forces);
   prior_information_ = fem::QpMatrix::Zero(forces, forces);
   if (forces != from_.lambda_f_N.size() || from_.x_m.size() == 0) {
@@ -477,10 +479,24 @@ Status ForceFitter::Conclude() {
   const fem::QpMatrix& basis = observable_.basis();
   const fem::QpMatrix reduced = basis.transpose() * Information(targets) * basis;
   fit_.covariance_N2 = basis * PseudoInverse(reduced) * basis.transpose();
+  UnfittedError(targets);
   if (tell_modulus_sensitivity_) ModulusSensitivity(targets, state);
   last_good_ = state;
   last_good_.valid = true;
   return Status::Ok();
+}
+
+/// Forces T t along the tangents T that are not fitted move the rows by G T t. The fit takes that
+/// for the forces S G' W G T t, and for t itself none: S the covariance, W the weights. Priors have
+/// no part in it, as that of a site does not couple its tangents.
+void ForceFitter::UnfittedError(const RowTargets& targets) {
+  const fem::QpMatrix& unfitted = observable_.unfitted();
+  fit_.unfitted_sites = observable_.unfitted_sites();
+  fit_.unfitted_error = -unfitted;
+  if (unfitted.cols() == 0) return;
+  const fem::QpMatrix data = Information(targets) - prior_information_;
+  const fem::QpMatrix covariance_N2 = fit_.covariance_N2;
+  fit_.unfitted_error += covariance_N2 * data * unfitted;
 }
 
 Status ForceFitter::CheckTensions(const ModelState& state) const {

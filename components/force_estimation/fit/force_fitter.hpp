@@ -48,12 +48,31 @@ struct ForceFit {
   int continuation_steps = 0;  ///< load steps along equilibria, where Newton's method diverged
   double error = 0.0;          ///< relative, compared with Config::frame_tolerance
   double chi_squared = 0.0;
-  Eigen::VectorXd residual_m;                ///< [rows] measured - model; 0 where not measured
-  Eigen::MatrixXd covariance_N2;             ///< [3k x 3k] from weights and priors
+  Eigen::VectorXd residual_m;     ///< [rows] measured - model; 0 where not measured
+  Eigen::MatrixXd covariance_N2;  ///< [3k x 3k] from weights and priors
+  /// [3k x u] Error of the fitted forces for each newton along a tangent that was not fitted, and
+  /// the site of each tangent [u] (ObservableSubspace::unfitted).
+  fem::QpMatrix unfitted_error;
+  std::vector<int> unfitted_sites;
   Eigen::VectorXd modulus_sensitivity_N;     ///< [3k] dlambda_f / dln E
   std::vector<Observability> observability;  ///< [k]
   std::vector<int> unknowns;                 ///< [k] force components that were fitted
 };
+
+/// Covariance of the force at a site, N^2, from tangents that were not fitted: `sigma_N` of a site
+/// is the prior sigma of its tangential force. Zero where all were fitted.
+template <typename SigmaOfSite>
+Eigen::Matrix3d UnfittedCovariance_N2(const ForceFit& fit, size_t site, SigmaOfSite sigma_N) {
+  Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();
+  for (size_t k = 0; k < fit.unfitted_sites.size(); ++k) {
+    const Eigen::Vector3d error_N =
+        sigma_N(static_cast<size_t>(fit.unfitted_sites[k])) *
+        fit.unfitted_error.block<3, 1>(static_cast<Eigen::Index>(3 * site),
+                                       static_cast<Eigen::Index>(k));
+    covariance_N2 += error_N * error_N.transpose();
+  }
+  return covariance_N2;
+}
 
 /// Cost of a factorisation, in substitutions of a single right-hand side.
 inline constexpr double kFactorWork = 8.0;
@@ -214,6 +233,7 @@ class ForceFitter final : private fem::NewtonProblem {
 
   Status Conclude();
   Status CheckTensions(const ModelState& state) const;
+  void UnfittedError(const RowTargets& targets);
   void ModulusSensitivity(const RowTargets& targets, const ModelState& state);
 
   robot::RobotModel& model_;

@@ -43,6 +43,24 @@ void ObservableSubspace::BuildBasis() {
     basis_.block(ToIndex(3 * s), column, 3, unknowns) = directions_[s].leftCols(unknowns);
     column += unknowns;
   }
+  BuildUnfitted();
+}
+
+void ObservableSubspace::BuildUnfitted() {
+  unfitted_sites_.clear();
+  for (size_t s = 0; s < directions_.size(); ++s) {
+    if (observability_[s] != Observability::kNormal) continue;
+    unfitted_sites_.insert(unfitted_sites_.end(), static_cast<size_t>(3 - unknowns_[s]),
+                           static_cast<int>(s));
+  }
+  unfitted_ = fem::QpMatrix::Zero(ToIndex(3 * directions_.size()), ToIndex(unfitted_sites_.size()));
+  Eigen::Index column = 0;
+  for (size_t s = 0; s < directions_.size(); ++s) {
+    if (observability_[s] != Observability::kNormal) continue;
+    for (Eigen::Index k = unknowns_[s]; k < 3; ++k) {
+      unfitted_.block<3, 1>(ToIndex(3 * s), column++) = directions_[s].col(k);
+    }
+  }
 }
 
 void ObservableSubspace::KeepObservable(const std::vector<FitSite>& sites,

@@ -40,16 +40,23 @@ class ObservableSubspace {
   const fem::QpMatrix& basis() const { return basis_; }                               ///< [3k x q]
   const std::vector<Observability>& observability() const { return observability_; }  ///< [k]
   const std::vector<int>& unknowns() const { return unknowns_; }  ///< [k] components fitted
+  /// The tangents [3k x u] along which forces were set to zero, where the normal is fitted; and the
+  /// site of each [u].
+  const fem::QpMatrix& unfitted() const { return unfitted_; }
+  const std::vector<int>& unfitted_sites() const { return unfitted_sites_; }
 
  private:
   void KeepNormal(const FitSite& site, size_t index, const Eigen::Matrix3d& covariance_N2,
                   double limit_N2);
   void BuildBasis();
+  void BuildUnfitted();
 
   std::vector<Eigen::Matrix3d> directions_;  ///< [k] the first unknowns[k] columns are fitted
   std::vector<Observability> observability_;
   std::vector<int> unknowns_;
   fem::QpMatrix basis_;
+  fem::QpMatrix unfitted_;
+  std::vector<int> unfitted_sites_;
 };
 
 }  // namespace palpate::force_estimation

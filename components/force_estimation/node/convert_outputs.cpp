@@ -58,6 +58,8 @@ dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(
     const bool known = contact.status.code() != StatusCode::kUnobservable;
     dds::SetVector(force.force_n, known ? contact.force_N : kUnknown);
     force.ci95_n = known ? contact.ci95_N : kUnknown.x();
+    Eigen::Matrix3d::Map(force.covariance_n2) =
+        known ? contact.covariance_N2 : Eigen::Matrix3d::Constant(kUnknown.x());
     force.location_ci95_m = contact.location_ci95_m;
     dds::SetText(force.status, ToString(contact.status.code()));
     dds::SetText(force.reason, contact.status.message());

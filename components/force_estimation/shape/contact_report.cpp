@@ -19,13 +19,16 @@ namespace {
 /// At the contact's location.
 Eigen::Matrix3d CovarianceOf(const ShapeFitter& fit, std::size_t site) {
   const auto row = ToIndex(3 * site);
-  return fit.Covariance_N2().block<3, 3>(row, row);
+  const Eigen::Matrix3d unfitted_N2 = UnfittedCovariance_N2(
+      fit.fitter().fit(), site, [&](std::size_t other) { return fit.TangentialSigma_N(other); });
+  return fit.Covariance_N2().block<3, 3>(row, row) + unfitted_N2;
 }
 
 /// What a bias that was fitted along adds to the covariance.
 Eigen::Matrix3d ShareOfBias(const ShapeFitter& fit, std::size_t site) {
   const auto row = ToIndex(3 * site);
-  return CovarianceOf(fit, site) - fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
+  return fit.Covariance_N2().block<3, 3>(row, row) -
+         fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
 
 /// With the uncertainty of the location.

@@ -17,6 +17,8 @@ struct ShownForce {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< on the deformed body
   std::optional<Eigen::Vector3d> force_N;                ///< nullopt: not determined
+  /// Of force_N; zero: exact, as it was declared; NaN: unknown.
+  Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();
   double ci95_N = 0.0;
   double location_ci95_m = 0.0;
   std::string status = "ok";

@@ -37,6 +37,7 @@ dds::Message<idl::palpate_msgs::ForceArray> ForcesOf(const std::vector<ShownForc
     dds::SetText(to.name, from.name);
     dds::SetVector(to.position_m, from.position_m);
     dds::SetVector(to.force_n, from.force_N.value_or(Eigen::Vector3d::Constant(std::nan(""))));
+    Eigen::Matrix3d::Map(to.covariance_n2) = from.covariance_N2;
     to.ci95_n = from.ci95_N;
     to.location_ci95_m = from.location_ci95_m;
     dds::SetText(to.status, from.status);

@@ -32,6 +32,7 @@ TEST(Observability, ForceAtTheClampIsUnknownNotZero) {
   EXPECT_EQ(estimate.contacts[0].status.code(), StatusCode::kUnobservable);
   EXPECT_TRUE(estimate.contacts[0].force_N.array().isNaN().all());
   EXPECT_TRUE(std::isnan(estimate.contacts[0].ci95_N));
+  EXPECT_TRUE(estimate.contacts[0].covariance_N2.array().isNaN().all());
 }
 
 TEST(Observability, ForceAtTheClampDoesNotSpoilTheOthers) {
@@ -93,6 +94,10 @@ TEST(Observability, SaysWhereOnlyTheNormalForceIsKnown) {
   const double along_beam_N = std::sqrt(full.covariance_N2(0, 0));
   ASSERT_GT(along_beam_N, 2.0 * std::sqrt(full.covariance_N2(2, 2)));
   config.unobservable_sigma_N = 0.9 * along_beam_N;
+  // As much friction as push would bend the beam as a smaller push does.
+  MarkerForceEstimator with_friction(*model, config);
+  EXPECT_EQ(with_friction.Update(frame).contacts[0].status.code(), StatusCode::kUncertain);
+  config.friction_sigma = 0.1;
   MarkerForceEstimator estimator(*model, config);
   const ForceEstimate& estimate = estimator.Update(frame);
   EXPECT_TRUE(estimate.status.ok());

@@ -89,6 +89,7 @@ TEST(EstimationConvert, ForcesKeepTheirNumbersAndTheFrameTheyAnswer) {
   contact.name = "tip";
   contact.position_m = {0.1, 0.0, 0.0};
   contact.force_N = {0.0, 0.0, -2.0};
+  contact.covariance_N2 << 1, 2, 3, 2, 4, 5, 3, 5, 6;
   contact.ci95_N = 0.25;
   const auto forces = ToForceArray({1'500'000'000, 12, "rec", {}}, Status::Ok(), {contact});
   EXPECT_EQ(forces->marker_counter, 12u);
@@ -99,6 +100,8 @@ TEST(EstimationConvert, ForcesKeepTheirNumbersAndTheFrameTheyAnswer) {
   ASSERT_EQ(forces->forces._length, 1u);
   EXPECT_EQ(forces->forces._buffer[0].force_n.z, -2.0);
   EXPECT_EQ(forces->forces._buffer[0].ci95_n, 0.25);
+  EXPECT_THAT(forces->forces._buffer[0].covariance_n2,
+              testing::ElementsAre(1, 2, 3, 2, 4, 5, 3, 5, 6));
   EXPECT_EQ(dds::Text(forces->forces._buffer[0].status), "tangential_unobservable");
   EXPECT_EQ(dds::Text(forces->forces._buffer[0].reason), "seen from one side");
   // r x F about the origin: (0.1, 0, 0) x (0, 0, -2) = (0, 0.2, 0).
@@ -111,6 +114,7 @@ TEST(EstimationConvert, AnUnobservableForceIsNotANumber) {
   const auto forces = ToForceArray({}, Status::Ok(), {contact});
   EXPECT_TRUE(std::isnan(forces->forces._buffer[0].force_n.x));
   EXPECT_TRUE(std::isnan(forces->forces._buffer[0].ci95_n));
+  EXPECT_TRUE(std::isnan(forces->forces._buffer[0].covariance_n2[0]));
 }
 
 TEST(EstimationConvert, AMeshStateThatMayNotBeUsedHasNoPositions) {

@@ -66,6 +66,7 @@ dds::Message<idl::palpate_msgs::ForceArray> Forces(std::uint64_t counter, double
   force.position_m = {0.012, -0.005, 0.080};
   force.force_n = {0.0, 0.0, -force_N};
   force.ci95_n = std::isnan(force_N) ? kNaN : 0.04;
+  force.covariance_n2[8] = std::isnan(force_N) ? kNaN : 0.0004;
   force.location_ci95_m = 0.003;
   return message;
 }
@@ -103,6 +104,7 @@ TEST(Snapshot, ForcesHavePlaceSizeIntervalRateAndAge) {
   EXPECT_NEAR(force.at("force_robot_N").at(2), -0.521, 1e-12);
   EXPECT_NEAR(force.at("position_robot_m").at(0), 0.012, 1e-12);
   EXPECT_EQ(force.at("ci95_N"), 0.04);
+  EXPECT_EQ(force.at("covariance_robot_N2"), Json({{0, 0, 0}, {0, 0, 0}, {0, 0, 0.0004}}));
 }
 
 TEST(Snapshot, AForceThatIsNotKnownIsNoNumber) {
@@ -110,7 +112,9 @@ TEST(Snapshot, AForceThatIsNotKnownIsNoNumber) {
   builder.Add(*Forces(0, kNaN), 1.0);
   EXPECT_THAT(SnapshotText(builder.At(1.0, 0)), HasSubstr("? N"));
   const Json json = Json::parse(monitor::SnapshotJson(builder.At(1.0, 0)));
-  EXPECT_TRUE(json.at("forces").at("contacts").at(0).at("size_N").is_null());
+  const Json& force = json.at("forces").at("contacts").at(0);
+  EXPECT_TRUE(force.at("size_N").is_null());
+  EXPECT_TRUE(force.at("covariance_robot_N2").at(2).at(2).is_null());
 }
 
 TEST(Snapshot, LostMessagesAreCountedBySkippedCounters) {

@@ -156,15 +156,17 @@ TEST_F(ModelExperiment, RefusesWhatDoesNotFitTheRobot) {
 }
 
 constexpr const char* kHeader =
-    "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status\n";
+    "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status,cov_xx_N2,"
+    "cov_xy_N2,cov_xz_N2,cov_yy_N2,cov_yz_N2,cov_zz_N2\n";
 
 TEST(EstimatedForces, AreThoseOfTheNewestFrame) {
   const TestFolder folder;
-  const auto forces = EstimatedForces::Read(folder.Write(
-      "forces.csv", std::string(kHeader) + "r1,0.1,,,,,,,,,,no_contact\n"
-                                           "r1,0.2,a,0.01,0.02,0.03,0,0,-0.5,0.1,0.002,ok\n"
-                                           "r1,0.2,b,0.01,0.02,0.03,,,,,,unobservable\n"
-                                           "r2,0.1,a,0,0,0,1,0,0,0.1,0,ok\n"));
+  const auto forces = EstimatedForces::Read(
+      folder.Write("forces.csv", std::string(kHeader) +
+                                     "r1,0.1,,,,,,,,,,no_contact,,,,,,\n"
+                                     "r1,0.2,a,0.01,0.02,0.03,0,0,-0.5,0.1,0.002,ok,1,0,0,1,0.5,2\n"
+                                     "r1,0.2,b,0.01,0.02,0.03,,,,,,unobservable,,,,,,\n"
+                                     "r2,0.1,a,0,0,0,1,0,0,0.1,0,ok,1,0,0,1,0,1\n"));
   EXPECT_EQ(forces.At("r1", 0.05), nullptr);
   EXPECT_EQ(forces.At("r3", 1.0), nullptr);
   EXPECT_EQ(forces.At("r1", 0.1)->status, "no_contact");
@@ -173,15 +175,17 @@ TEST(EstimatedForces, AreThoseOfTheNewestFrame) {
   ASSERT_EQ(frame.forces.size(), 2U);
   EXPECT_EQ(frame.forces[0].force_N, Eigen::Vector3d(0.0, 0.0, -0.5));
   EXPECT_EQ(frame.forces[0].ci95_N, 0.1);
+  EXPECT_EQ(frame.forces[0].covariance_N2(2, 1), 0.5);
   EXPECT_FALSE(frame.forces[1].force_N);
+  EXPECT_TRUE(frame.forces[1].covariance_N2.array().isNaN().all());
   EXPECT_EQ(frame.forces[1].status, "unobservable");
 }
 
 TEST(EstimatedForces, AreRefusedWhereTimeFalls) {
   const TestFolder folder;
   const auto file = folder.Write("forces.csv", std::string(kHeader) +
-                                                   "r1,0.2,,,,,,,,,,no_contact\n"
-                                                   "r1,0.1,,,,,,,,,,no_contact\n");
+                                                   "r1,0.2,,,,,,,,,,no_contact,,,,,,\n"
+                                                   "r1,0.1,,,,,,,,,,no_contact,,,,,,\n");
   EXPECT_THAT(MessageOf([&] { EstimatedForces::Read(file); }), HasSubstr(":3:"));
 }
 
