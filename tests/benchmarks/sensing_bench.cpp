@@ -77,6 +77,10 @@ void CountAccuracy(benchmark::State& state, const test_support::Watched& watched
   Count(state, "location_largest_mm", 1e3 * held.largest_location_error_m);
   Count(state, "force_coverage_percent", kPercent * held.force_coverage);
   Count(state, "location_coverage_percent", kPercent * held.location_coverage);
+  Count(state, "nees_per_degree", held.nees_per_degree);
+  Count(state, "nees_lowest", held.lowest_nees);
+  Count(state, "nees_highest", held.highest_nees);
+  Count(state, "within_ellipsoid_percent", kPercent * held.within_ellipsoid);
   Count(state, "directions", held.directions);
   Count(state, "direction_mean_deg", kDegrees * held.mean_direction_error_rad);
   Count(state, "direction_largest_deg", kDegrees * held.largest_direction_error_rad);

@@ -99,6 +99,7 @@ Watched SensingSets::FirstPictures(Eyes eyes, const ContactWish& wish, int count
   for (const Path& path : paths) {
     scene_.Show(path.back());
     chain.Open();
+    watched.held.BeginContacts();
     watched.held.Add(path.back().forces, chain.Take());
   }
   chain.Open();

@@ -37,6 +37,10 @@ const std::vector<Column> kColumns = {{"forces", "forces", 8, 0},
                                       {"max deg", "direction_largest_deg", 9, 1},
                                       {"F in ci", "force_coverage_percent", 9, 0},
                                       {"x in ci", "location_coverage_percent", 9, 0},
+                                      {"NEES", "nees_per_degree", 7, 2},
+                                      {"from", "nees_lowest", 6, 2},
+                                      {"to", "nees_highest", 6, 2},
+                                      {"in C", "within_ellipsoid_percent", 6, 0},
                                       {"frames", "frames", 8, 0},
                                       {"false", "false_alarms", 7, 0},
                                       {"failed", "failed_frames", 8, 0},
@@ -59,7 +63,8 @@ void PrintHead(std::ostream& out) {
 Force estimation from depth images against the virtual bench.
 Held contacts: |F| and location. Each force counts in each frame; a missed one errs by 100 % and has no
 location. Mean direction error of observable estimates. Share of forces and locations inside their 95 %
-intervals.
+intervals. NEES over its degrees of freedom, mean over the contacts, the range that true covariances give
+(95 %), and the share of forces inside their 95 % ellipsoids.
 All frames, moving contacts included: false forces, and frames without an estimate. Smallest rising true
 force from which on it was found (median).
 

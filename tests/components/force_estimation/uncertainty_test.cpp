@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "components/force_estimation/error_consistency.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "libs/core/statistics.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
@@ -42,6 +44,76 @@ TEST(ForceUncertainty, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_GE(size_covered, 0.95 * kDraws);
   EXPECT_GE(vector_covered, 0.90 * kDraws);
   EXPECT_LE(vector_covered, 0.99 * kDraws);
+}
+
+/// Consistencies with the covariances as they are, half and twice as large.
+struct Consistencies {
+  void Add(const std::string& contact, const Eigen::Vector3d& error_N,
+           const Eigen::Matrix3d& covariance_N2) {
+    as_it_is.Add(contact, Normalise(error_N, covariance_N2));
+    halved.Add(contact, Normalise(error_N, 0.5 * covariance_N2));
+    doubled.Add(contact, Normalise(error_N, 2.0 * covariance_N2));
+  }
+
+  ErrorConsistency as_it_is, halved, doubled;
+};
+
+void ExpectTrue(const Consistencies& found) {
+  EXPECT_GE(found.as_it_is.NeesPerDegree(), found.as_it_is.LowestExpected());
+  EXPECT_LE(found.as_it_is.NeesPerDegree(), found.as_it_is.HighestExpected());
+  EXPECT_GT(found.halved.NeesPerDegree(), found.halved.HighestExpected());
+  EXPECT_LT(found.doubled.NeesPerDegree(), found.doubled.LowestExpected());
+}
+
+TEST(ForceUncertainty, SquaredErrorsAreWhatTheirCovariancesSay) {
+  const auto model = Build(BeamRobot());
+  const Eigen::Vector3d force_N(0.05, -0.08, -0.15);
+  const MarkerFrame clean = FrameUnder(*model, {}, {LoadAt(*model, kTip, 0.005, force_N)});
+  MarkerForceEstimator estimator(*model, WithContacts({kTipSite}));
+  std::mt19937 random(20260102);
+  Consistencies found;
+  for (int draw = 0; draw < 100; ++draw) {
+    MarkerFrame frame = clean;
+    AddNoise(1e-4, random, &frame);
+    const ForceEstimate& estimate = estimator.Update(frame);
+    ASSERT_TRUE(estimate.status.ok());
+    found.Add(std::to_string(draw), estimate.contacts[0].force_N - force_N,
+              estimate.contacts[0].covariance_N2);
+  }
+  ExpectTrue(found);
+  EXPECT_GE(found.as_it_is.ShareWithin95(), 0.9);
+}
+
+/// The force along the beam is not determined at the limit that is set, and left at zero. Its
+/// variance, and what it adds to the others, are those of the friction that is drawn.
+TEST(ForceUncertainty, OfAForceThatIsNotDeterminedIsThatOfFriction) {
+  const auto model = Build(BeamRobot());
+  const Eigen::Vector3d middle_m(-0.06, 0.015, 0.03);
+  constexpr double kPush_N = 0.5;
+  Config config = WithContacts({"middle: -0.06, 0.015, 0.03, 0.005"});
+  const MarkerFrame pushed =
+      FrameUnder(*model, {}, {LoadAt(*model, middle_m, 0.005, {0.0, 0.0, -kPush_N})});
+  const ContactForce whole = MarkerForceEstimator(*model, config).Update(pushed).contacts.at(0);
+  config.unobservable_sigma_N = 0.9 * std::sqrt(whole.covariance_N2(0, 0));
+  config.friction_sigma = 0.4;
+  config.uncertain_share = 10.0;
+  MarkerForceEstimator estimator(*model, config);
+  std::mt19937 random(20260103);
+  Consistencies found;
+  for (int draw = 0; draw < 60; ++draw) {
+    Eigen::Vector3d force_N = NormalNoise(config.friction_sigma * kPush_N, random);
+    force_N.z() = -kPush_N;
+    MarkerFrame frame = FrameUnder(*model, {}, {LoadAt(*model, middle_m, 0.005, force_N)});
+    AddNoise(1e-4, random, &frame);
+    const ForceEstimate& estimate = estimator.Update(frame);
+    ASSERT_TRUE(estimate.status.ok());
+    const ContactForce& contact = estimate.contacts[0];
+    ASSERT_EQ(contact.status.code(), StatusCode::kTangentialUnobservable);
+    EXPECT_GT(contact.covariance_N2(0, 0), 0.1 * kPush_N * kPush_N);
+    EXPECT_DOUBLE_EQ(contact.ci95_N, HalfWidthAlong95_N(contact.force_N, contact.covariance_N2));
+    found.Add(std::to_string(draw), contact.force_N - force_N, contact.covariance_N2);
+  }
+  ExpectTrue(found);
 }
 
 TEST(ForceUncertainty, FalseContactsAreAsRareAsTheSignificanceSays) {

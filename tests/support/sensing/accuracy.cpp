@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "libs/core/statistics.hpp"
 
@@ -99,7 +100,11 @@ void Accuracy::Add(const std::vector<TrueForce>& truth,
     if (found == owner.end()) {
       scores_.push_back({.true_N = truth[f].force_N.norm()});
     } else {
-      scores_.push_back(Score(truth[f], contacts[static_cast<std::size_t>(found - owner.begin())]));
+      const ContactForce& contact = contacts[static_cast<std::size_t>(found - owner.begin())];
+      scores_.push_back(Score(truth[f], contact));
+      consistency_.Add(
+          std::to_string(contacts_begun_) + " " + truth[f].name,
+          force_estimation::Normalise(contact.force_N - truth[f].force_N, contact.covariance_N2));
     }
   }
   false_alarms_ += static_cast<int>(std::count(owner.begin(), owner.end(), -1));
@@ -129,6 +134,10 @@ AccuracySummary Accuracy::Summary() const {
       scores_, found, [&](const ForceScore& score) { return share(score.inside_interval); }));
   summary.location_coverage = Mean(Collect(
       scores_, found, [&](const ForceScore& score) { return share(score.inside_location); }));
+  summary.nees_per_degree = consistency_.NeesPerDegree();
+  summary.lowest_nees = consistency_.LowestExpected();
+  summary.highest_nees = consistency_.HighestExpected();
+  summary.within_ellipsoid = consistency_.ShareWithin95();
   summary.directions = static_cast<int>(direction.size());
   summary.mean_direction_error_rad = Mean(direction);
   summary.largest_direction_error_rad = Largest(direction);

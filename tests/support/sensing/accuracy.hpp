@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "components/force_estimation/error_consistency.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/virtual_robot/virtual_robot.hpp"
 
@@ -33,6 +34,11 @@ struct AccuracySummary {
   double largest_location_error_m = 0.0;
   double force_coverage = 0.0;     ///< share of those found that lie inside the 95 % interval
   double location_coverage = 0.0;  ///< the same of the place
+  /// Of the covariances of those found (ErrorConsistency), and the range that is expected of it.
+  double nees_per_degree = 0.0;
+  double lowest_nees = 0.0;
+  double highest_nees = 0.0;
+  double within_ellipsoid = 0.0;  ///< share inside their 95 % ellipsoids
   int directions = 0;
   double mean_direction_error_rad = 0.0;  ///< where it was observable
   double largest_direction_error_rad = 0.0;
@@ -51,6 +57,8 @@ class Accuracy {
   /// True forces below `smallest_N` may be found or not and do not count.
   explicit Accuracy(double smallest_N = 0.0) : smallest_N_(smallest_N) {}
 
+  /// The true forces from here on are other contacts, of whatever name.
+  void BeginContacts() { ++contacts_begun_; }
   void Add(const std::vector<virtual_robot::TrueForce>& truth,
            const force_estimation::ForceEstimate& estimate);
   AccuracySummary Summary() const;
@@ -59,6 +67,8 @@ class Accuracy {
  private:
   double smallest_N_;
   std::vector<ForceScore> scores_;
+  force_estimation::ErrorConsistency consistency_;
+  int contacts_begun_ = 0;
   int frames_ = 0;
   int false_alarms_ = 0;
   int failed_frames_ = 0;

@@ -40,6 +40,7 @@ void Watch(const std::vector<SceneState>& path, const WatchPlan& plan, SensingSc
   }
   watched->found_from_N.push_back(found_from_N);
   for (int k = 0; k < plan.settle; ++k) look(path.back(), &watched->underway);
+  watched->held.BeginContacts();
   for (int k = 0; k < plan.measured; ++k) look(path.back(), &watched->held);
   for (std::size_t k = path.size(); k > 0; k -= std::min<std::size_t>(k, 2)) {
     look(path[k - 1], &watched->underway);
