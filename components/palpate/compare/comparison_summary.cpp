@@ -22,26 +22,65 @@ double Angle_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-ForceScore ScoreOf(const std::vector<ComparedForce>& forces) {
-  std::vector<double> errors;
-  std::vector<double> distances_m;
-  std::vector<double> angles_rad;
-  std::vector<double> inside;
-  for (const ComparedForce& force : forces) {
-    const double error_N = std::abs(ForceError_N(force));
-    errors.push_back(error_N / force.truth->force_N.norm());
-    distances_m.push_back((force.estimate->position_m - force.truth->position_m).norm());
-    inside.push_back(error_N <= force.estimate->ci95_N ? 1.0 : 0.0);
-    if (!DirectionIsKnown(force)) continue;
-    angles_rad.push_back(Angle_rad(force.estimate->force_N, force.truth->force_N));
+/// Absolute errors of many forces.
+struct Errors {
+  std::vector<double> signed_N, size_N, relative, along_N, across_N, angles_rad, distances_m;
+  std::vector<double> inside, inside_location;  ///< 1 or 0
+};
+
+void AddDirected(const ComparedForce& force, Errors* errors) {
+  const Eigen::Vector3d error_N = force.estimate->force_N - force.truth->force_N;
+  const Eigen::Vector3d along = force.truth->force_N.normalized();
+  errors->along_N.push_back(std::abs(along.dot(error_N)));
+  errors->across_N.push_back((error_N - along * along.dot(error_N)).norm());
+  errors->angles_rad.push_back(Angle_rad(force.estimate->force_N, force.truth->force_N));
+}
+
+void Add(const ComparedForce& force, Errors* errors) {
+  const force_estimation::ContactForce& estimate = *force.estimate;
+  const double error_N = ForceError_N(force);
+  const double distance_m = (estimate.position_m - force.truth->position_m).norm();
+  errors->signed_N.push_back(error_N);
+  errors->size_N.push_back(std::abs(error_N));
+  errors->relative.push_back(std::abs(error_N) / force.truth->force_N.norm());
+  errors->distances_m.push_back(distance_m);
+  if (std::isfinite(estimate.ci95_N)) {
+    errors->inside.push_back(std::abs(error_N) <= estimate.ci95_N ? 1.0 : 0.0);
   }
+  if (estimate.location_ci95_m > 0.0) {  // 0: it was given
+    errors->inside_location.push_back(distance_m <= estimate.location_ci95_m ? 1.0 : 0.0);
+  }
+  if (DirectionIsKnown(force)) AddDirected(force, errors);
+}
+
+force_estimation::ErrorConsistency ConsistencyOf(const std::vector<ComparedForce>& forces) {
+  force_estimation::ErrorConsistency consistency;
+  for (const ComparedForce& force : forces) {
+    consistency.Add(force.recording + "/" + force.truth->name,
+                    force_estimation::Normalise(force.estimate->force_N - force.truth->force_N,
+                                                force.estimate->covariance_N2));
+  }
+  return consistency;
+}
+
+ForceScore ScoreOf(const std::vector<ComparedForce>& forces) {
+  Errors errors;
+  for (const ComparedForce& force : forces) Add(force, &errors);
   return {.frames = static_cast<int>(forces.size()),
-          .mean_relative_error = Mean(errors),
-          .median_relative_error = Quantile(errors, 0.5),
-          .p95_relative_error = Quantile(errors, 0.95),
-          .median_location_error_m = Quantile(distances_m, 0.5),
-          .mean_direction_error_rad = Mean(angles_rad),
-          .coverage = Mean(inside)};
+          .mean_relative_error = Mean(errors.relative),
+          .median_relative_error = Quantile(errors.relative, 0.5),
+          .p95_relative_error = Quantile(errors.relative, 0.95),
+          .bias_N = Mean(errors.signed_N),
+          .median_error_N = Quantile(errors.size_N, 0.5),
+          .p95_error_N = Quantile(errors.size_N, 0.95),
+          .median_along_N = Quantile(errors.along_N, 0.5),
+          .median_across_N = Quantile(errors.across_N, 0.5),
+          .median_location_error_m = Quantile(errors.distances_m, 0.5),
+          .p95_location_error_m = Quantile(errors.distances_m, 0.95),
+          .mean_direction_error_rad = Mean(errors.angles_rad),
+          .coverage = Mean(errors.inside),
+          .location_coverage = Mean(errors.inside_location),
+          .consistency = ConsistencyOf(forces)};
 }
 
 std::string ScoreText(const std::string& name, const ForceScore& score) {
@@ -53,7 +92,10 @@ std::string ScoreText(const std::string& name, const ForceScore& score) {
     text += fmt::format(", direction error {:.0f} deg",
                         score.mean_direction_error_rad * 180.0 / std::numbers::pi);
   }
-  return text + fmt::format("; {:.0f} % inside the 95 % interval\n", 100.0 * score.coverage);
+  if (std::isfinite(score.coverage)) {
+    text += fmt::format("; {:.0f} % inside the 95 % interval", 100.0 * score.coverage);
+  }
+  return text + "\n";
 }
 
 }  // namespace

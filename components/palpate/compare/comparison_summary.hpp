@@ -6,20 +6,29 @@
 #include <string>
 #include <vector>
 
+#include "components/force_estimation/error_consistency.hpp"
 #include "components/palpate/compare/force_comparison.hpp"
 
 namespace palpate::command {
 
-/// Accuracy of the forces of one kind, over the frames in which they were due and detected. NaN
-/// where there is no such frame.
+/// Accuracy of the forces of one kind, over the frames in which they were due and detected
+/// (docs/force_metrics.md). NaN where there is no such frame.
 struct ForceScore {
   int frames = 0;
   double mean_relative_error = 0.0;
   double median_relative_error = 0.0;
   double p95_relative_error = 0.0;  ///< 95 % of the errors are no larger
+  double bias_N = 0.0;              ///< mean of the error of |F|, with its sign
+  double median_error_N = 0.0;      ///< of |F|
+  double p95_error_N = 0.0;
+  double median_along_N = 0.0;   ///< of the force's error along the true force
+  double median_across_N = 0.0;  ///< and across it, where all of the force was observable
   double median_location_error_m = 0.0;
+  double p95_location_error_m = 0.0;
   double mean_direction_error_rad = 0.0;  ///< of those whose direction was observable
   double coverage = 0.0;                  ///< share whose true magnitude lies in the 95 % interval
+  double location_coverage = 0.0;         ///< share whose true location lies in its 95 % interval
+  force_estimation::ErrorConsistency consistency = {};  ///< of those that have a covariance
 };
 
 /// Estimates against truth over a whole run.

@@ -13,6 +13,15 @@ namespace {
 
 using force_estimation::ContactForce;
 
+struct ComparisonTuning {
+  /// Of the largest true force: smaller ones may be missed. Larger: fewer forces count.
+  double smallest_force = 0.1;
+  /// Samples in the window in which a force must be steady. More: only densely sampled truths tell
+  /// steady forces from others.
+  double samples_in_window = 2.0;
+};
+constexpr ComparisonTuning kComparisonTuning;
+
 struct Pair {
   double distance_m = 0.0;
   std::size_t truth = 0;
@@ -41,13 +50,30 @@ std::vector<ContactForce> WithForce(const std::vector<ContactForce>& contacts) {
 
 }  // namespace
 
+ComparisonRules RulesOf(const std::map<std::string, TruthTimeline>& truth, double same_place_m) {
+  ComparisonRules rules;
+  rules.same_place_m = same_place_m;
+  double largest_N = 0.0;
+  double longest_s = 0.0;
+  for (const auto& [recording, timeline] : truth) {
+    largest_N = std::max(largest_N, timeline.LargestForce_N());
+    longest_s = std::max(longest_s, timeline.LongestPeriod_s());
+  }
+  rules.smallest_N = kComparisonTuning.smallest_force * largest_N;
+  if (kComparisonTuning.samples_in_window * longest_s > rules.steady_window_s) {
+    rules.steady_window_s = 0.0;
+  }
+  return rules;
+}
+
 std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& estimate,
                                         const TruthTimeline& truth, const ComparisonRules& rules) {
   const auto true_now = truth.At(estimate.t_s);
   if (!HasResult(estimate.status) || !true_now) return {};
   const std::vector<ContactForce> found = WithForce(estimate.contacts);
   const auto is_large = [&](const TrueContact& contact) {
-    return contact.force_N.norm() >= rules.smallest_N;
+    const double size_N = contact.force_N.norm();
+    return size_N > 0.0 && size_N >= rules.smallest_N;
   };
   const auto large_forces =
       static_cast<int>(std::count_if(true_now->begin(), true_now->end(), is_large));
@@ -55,7 +81,11 @@ std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& e
   for (const TrueContact& contact : *true_now) {
     const bool due = is_large(contact) && truth.IsSteady(contact.name, estimate.t_s,
                                                          rules.steady_window_s, rules.steady_share);
-    compared.push_back({estimate.t_s, contact, std::nullopt, due, large_forces});
+    compared.push_back({.t_s = estimate.t_s,
+                        .truth = contact,
+                        .estimate = std::nullopt,
+                        .due = due,
+                        .true_forces = large_forces});
   }
   std::vector<bool> taken(found.size(), false);
   for (const Pair& pair : PairsByDistance(*true_now, found, rules.same_place_m)) {
@@ -65,7 +95,11 @@ std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& e
   }
   for (std::size_t e = 0; e < found.size(); ++e) {
     if (taken[e]) continue;
-    compared.push_back({estimate.t_s, std::nullopt, found[e], false, large_forces});
+    compared.push_back({.t_s = estimate.t_s,
+                        .truth = std::nullopt,
+                        .estimate = found[e],
+                        .due = false,
+                        .true_forces = large_forces});
   }
   return compared;
 }

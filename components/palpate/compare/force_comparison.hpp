@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,16 @@ struct ComparisonRules {
   double steady_share = 0.05;    ///< by no more than this share
 };
 
+/// The rules that follow from the truth, by recording, so that the comparison is the same for
+/// robots of any strength: forces of a tenth of the largest one or more must be detected while they
+/// are steady. Where samples are rare, steadiness is not asked for.
+ComparisonRules RulesOf(const std::map<std::string, TruthTimeline>& truth, double same_place_m);
+
 /// A true force, its estimate, or both, in one frame. Without truth: a false alarm;
 /// without estimate: a miss, where it is `due`.
 struct ComparedForce {
   double t_s = 0.0;
+  std::string recording = {};  ///< contacts of one name in different ones are different
   std::optional<TrueContact> truth;
   std::optional<force_estimation::ContactForce> estimate;
   bool due = false;     ///< steady, and large enough to be detected

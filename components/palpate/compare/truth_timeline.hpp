@@ -17,13 +17,19 @@ struct TrueContact {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
 };
 
+/// What samples say of the times between them.
+struct TruthTiming {
+  double same_time_s = 0.005;  ///< a sample this near counts as of that time
+  double longest_gap_s = 0.5;  ///< forces are interpolated between samples at most this far apart
+  /// Instead, each sample holds until the next one; before the first one there is no force. A
+  /// single sample holds always.
+  bool holds = false;
+};
+
 /// True forces over time, from samples.
 class TruthTimeline {
  public:
-  /// Maximum distance of samples between which forces are interpolated.
-  static constexpr double kLongestGap_s = 0.5;
-  /// Tolerance of stamps of the camera and of the virtual robot.
-  static constexpr double kSameTime_s = 0.005;
+  explicit TruthTimeline(const TruthTiming& timing = {}) : timing_(timing) {}
 
   /// Samples whose time does not rise are left out.
   void Add(double t_s, std::vector<TrueContact> contacts);
@@ -39,14 +45,22 @@ class TruthTimeline {
 
   bool empty() const { return samples_.empty(); }
   double last_s() const { return samples_.empty() ? 0.0 : samples_.back().t_s; }
+  std::vector<double> times_s() const;  ///< of the samples
+  double LargestForce_N() const;        ///< 0 without a force
+  /// The longest time between two samples: steadiness cannot be seen within less. 0 where samples
+  /// hold.
+  double LongestPeriod_s() const;
 
  private:
   struct Sample {
     double t_s = 0.0;
     std::vector<TrueContact> contacts;
   };
+  std::vector<Sample>::const_iterator NotBefore(double t_s) const;
   const Sample* SampleAt(double t_s) const;
+  std::optional<std::vector<TrueContact>> HeldAt(double t_s) const;
 
+  TruthTiming timing_;
   std::vector<Sample> samples_;  ///< rising times
 };
 

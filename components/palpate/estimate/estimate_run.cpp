@@ -13,6 +13,7 @@
 
 #include "components/force_estimation/contact_site.hpp"
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
+#include "components/palpate/compare/comparison_output.hpp"
 #include "components/palpate/estimate/bias_frames.hpp"
 #include "components/palpate/estimate/image_check.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"

@@ -19,6 +19,9 @@ struct KnownTruth {
   ComparisonRules rules;
 };
 
+/// How far from a true force an estimate may be to belong to it, of a robot of that size: a tenth.
+double SamePlace_m(double body_diagonal_m);
+
 /// Reads EXP.answer.json of `palpate simulate`. The rules follow from robot and truth: an estimate
 /// belongs to a true force within a tenth of `body_diagonal_m`; forces of a tenth of the largest or
 /// more must be detected, while they are steady. Throws InputError where it cannot be read, or

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -36,9 +35,5 @@ class RecordingComparison {
   ComparisonSummary summary_;
   ForceTracks tracks_;
 };
-
-/// "30 of 33 steady forces detected; ...": one line without its end.
-std::string ToLine(const ComparisonSummary& summary);
-nlohmann::ordered_json ToJson(const ComparisonSummary& summary);
 
 }  // namespace palpate::command

@@ -132,6 +132,14 @@ std::string FirstLine(std::string_view head) {
 /// A table that is no motion capture; no kind where the first line has one column.
 FileKind OtherTable(const std::string& first_line) {
   if (first_line.find_first_of(",;\t") == std::string::npos) return {};
+  if (first_line.find("fx_N") != std::string::npos &&
+      first_line.find("contact") != std::string::npos) {
+    return {.family = Family::kOther,
+            .name = "table of forces",
+            .advice =
+                "palpate compare compares two of them, and palpate view shows it with "
+                "--results"};
+  }
   return {.family = Family::kOther,
           .name = "table",
           .advice =

@@ -5,6 +5,7 @@
 
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/capture_verb.hpp"
+#include "components/palpate/compare_verb.hpp"
 #include "components/palpate/diagnose_verb.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"
@@ -33,10 +34,11 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
-      DemoVerb(),     LaunchVerb(), SolveVerb(),   SimulateVerb(), CalibrateVerb(), EstimateVerb(),
-      DiagnoseVerb(), ImportVerb(), CaptureVerb(), WatchVerb(),    HealthVerb(),    DoctorVerb(),
-      TopicVerb(),    NodeVerb(),   ParamVerb(),   FailVerb(),     RecordVerb(),    PlayVerb(),
-      ViewVerb(),     RepairVerb(), ExportVerb(),  InfoVerb(),     SecurityVerb(),  ReferenceVerb(),
+      DemoVerb(),     LaunchVerb(),  SolveVerb(),    SimulateVerb(), CalibrateVerb(),
+      EstimateVerb(), CompareVerb(), DiagnoseVerb(), ImportVerb(),   CaptureVerb(),
+      WatchVerb(),    HealthVerb(),  DoctorVerb(),   TopicVerb(),    NodeVerb(),
+      ParamVerb(),    FailVerb(),    RecordVerb(),   PlayVerb(),     ViewVerb(),
+      RepairVerb(),   ExportVerb(),  InfoVerb(),     SecurityVerb(), ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);

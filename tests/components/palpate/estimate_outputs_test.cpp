@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "components/palpate/compare_verb.hpp"
 #include "components/palpate/estimate/estimate_run.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -176,6 +177,25 @@ TEST_F(EstimateOutputs, CompareWithTheGroundTruth) {
   EXPECT_LT(json[0]["comparison"]["relative_error_p95"], 0.05);
   EXPECT_EQ(json[0]["comparison"]["coverage_of_ci95"], 1.0);
   EXPECT_EQ(json[0]["contacts"][0]["known_load_N"], 0.03);
+}
+
+/// One evaluation, from the frames and from the file.
+TEST_F(EstimateOutputs, HaveTheNumbersOfCompare) {
+  Measure();
+  options_.answer = WriteAnswer("r1");
+  options_.json = true;
+  const auto estimated = nlohmann::json::parse(Output());
+  CompareOptions compare;
+  compare.estimated = options_.out;
+  compare.truth = options_.answer;
+  compare.robot = robot_;
+  compare.json = true;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(Compare(compare), 0);
+  const auto compared = nlohmann::json::parse(testing::internal::GetCapturedStdout());
+  EXPECT_EQ(compared["recordings"][0]["comparison"], estimated[0]["comparison"]);
+  EXPECT_EQ(compared["all"]["steady_forces"], 14);
+  EXPECT_TRUE(compared["all"].contains("nees_per_degree"));
 }
 
 TEST_F(EstimateOutputs, SayWhereTheGroundTruthLacksARecording) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "components/palpate/compare/status_word.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/index.hpp"
 #include "libs/dds/access_rights.hpp"
@@ -15,11 +16,7 @@
 namespace palpate::command {
 
 Status ParseStatus(std::string_view word, std::string_view reason) {
-  for (int code = 0; code <= static_cast<int>(StatusCode::kUncertain); ++code) {
-    if (ToString(static_cast<StatusCode>(code)) == word) {
-      return {static_cast<StatusCode>(code), std::string(reason)};
-    }
-  }
+  if (const auto code = StatusOfWord(word)) return {*code, std::string(reason)};
   return {StatusCode::kInvalidInput, "unknown status '" + std::string(word) + "'"};
 }
 
@@ -43,6 +40,7 @@ force_estimation::ForceEstimate ToEstimate(const idl::palpate_msgs::ForceArray& 
     contact.name = dds::Text(force.name);
     contact.position_m = {force.position_m.x, force.position_m.y, force.position_m.z};
     contact.force_N = {force.force_n.x, force.force_n.y, force.force_n.z};
+    contact.covariance_N2 = Eigen::Matrix3d::Map(force.covariance_n2);
     contact.ci95_N = force.ci95_n;
     contact.location_ci95_m = force.location_ci95_m;
     estimate.contacts.push_back(contact);
