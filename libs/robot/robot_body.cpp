@@ -66,7 +66,9 @@ class PointPlacer {
                                         " (20 mm, or 5 % of the body's diagonal where that is "
                                         "less); is the path in metres?");
     }
-    if (point.distance_m > 0.0 && IsInHollow(locator_, point.rest_m)) {
+    // Where the guide reaches the wall, the hollow is the channel that the cable runs in.
+    const bool off_the_wall = point.distance_m > std::max(0.0, cable.guide_radius_m);
+    if (off_the_wall && IsInHollow(locator_, point.rest_m)) {
       warnings_->push_back(name + " lies in a hollow, " + Millimetres(point.distance_m) +
                            " off the nearest wall: it moves as if it were fixed to that wall; is "
                            "path_m meant to be in the material?");

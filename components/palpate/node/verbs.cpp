@@ -11,6 +11,7 @@
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/launch/launch_verb.hpp"
+#include "components/palpate/new_robot/new_robot_verb.hpp"
 #include "components/palpate/node/demo/demo_verb.hpp"
 #include "components/palpate/node/doctor/doctor_verb.hpp"
 #include "components/palpate/node/play/play_verb.hpp"
@@ -39,6 +40,11 @@ int RunCommand(const std::vector<std::string>& words) {
       WatchVerb(),    HealthVerb(),  DoctorVerb(),   TopicVerb(),    NodeVerb(),
       ParamVerb(),    FailVerb(),    RecordVerb(),   PlayVerb(),     ViewVerb(),
       RepairVerb(),   ExportVerb(),  InfoVerb(),     SecurityVerb(), ReferenceVerb(),
+      DemoVerb(),     LaunchVerb(),   SolveVerb(),    SimulateVerb(), CalibrateVerb(),
+      EstimateVerb(), DiagnoseVerb(), ImportVerb(),   CaptureVerb(),  WatchVerb(),
+      HealthVerb(),   DoctorVerb(),   TopicVerb(),    NodeVerb(),     ParamVerb(),
+      FailVerb(),     RecordVerb(),   PlayVerb(),     ViewVerb(),     RepairVerb(),
+      ExportVerb(),   InfoVerb(),     NewRobotVerb(), SecurityVerb(), ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <iterator>
 #include <map>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -46,8 +47,8 @@ struct Keyword {
   }
 };
 
-/// Reads the nodes, tetrahedra and element sets of an input file of Abaqus or CalculiX; all other
-/// keywords are passed over. Element sets are groups.
+/// Reads the nodes, tetrahedra, element sets and node sets of an input file of Abaqus or CalculiX;
+/// all other keywords are passed over. Element sets are groups.
 class AbaqusReader {
  public:
   AbaqusReader(std::string_view bytes, MeshBuilder* builder) : rest_(bytes), builder_(builder) {}
@@ -128,6 +129,8 @@ class AbaqusReader {
       BeginElements(keyword);
     } else if (keyword.name == "ELSET") {
       BeginSet(keyword);
+    } else if (keyword.name == "NSET") {
+      BeginNodeSet(keyword);
     } else if (keyword.name == "PART" && ++parts_ > 1) {
       Fail("a second *PART: save the body as one part");
     } else if (keyword.name == "INSTANCE") {
@@ -265,6 +268,49 @@ class AbaqusReader {
     take_ = &AbaqusReader::TakeSet;
   }
 
+  void BeginNodeSet(const Keyword& keyword) {
+    const std::string name = keyword.Get("NSET");
+    if (!builder_->KeepsNodeGroups() || name.empty()) return;
+    if (in_assembly_ && !keyword.parameters.contains("INSTANCE")) return;
+    node_set_ = builder_->NodeGroupNamed(name, 0);
+    generate_ = keyword.parameters.contains("GENERATE");
+    take_ = &AbaqusReader::TakeNodeSet;
+  }
+
+  /// Numbers of nodes, or with GENERATE first, last and step. Names of other sets are passed over.
+  void TakeNodeSet() {
+    const auto parts = Split(line_);
+    if (generate_) {
+      if (parts.size() < 2 || parts.size() > 3) Fail("expected first, last and step");
+      const int64_t step = parts.size() == 3 ? Integer(parts[2], "a step") : 1;
+      AddNodeRange(Integer(parts[0], "a node"), Integer(parts[1], "a node"), step);
+      return;
+    }
+    for (const std::string_view part : parts) {
+      if (part.empty() || std::isdigit(static_cast<unsigned char>(part.front())) == 0) continue;
+      AddToNodeSet(Integer(part, "a node"));
+    }
+  }
+
+  void AddNodeRange(int64_t first, int64_t last, int64_t step) {
+    if (last < first) return;
+    const int64_t steps = (last - first) / step;
+    if (steps < static_cast<int64_t>(node_of_number_.size())) {
+      for (int64_t k = 0; k <= steps; ++k) AddToNodeSet(first + k * step);
+      return;
+    }
+    for (const auto& [number, node] : node_of_number_) {
+      if (number >= first && number <= last && (number - first) % step == 0) AddToNodeSet(number);
+    }
+  }
+
+  /// Numbers of nodes that are not there are passed over: a deck may name those of another part.
+  void AddToNodeSet(int64_t number) {
+    const auto node = node_of_number_.find(number);
+    if (node == node_of_number_.end()) return;
+    builder_->AddToNodeGroup(node_set_, std::span(&node->second, 1));
+  }
+
   /// Names of sets are equal in any case. Returns `name` as the first set of that name has it.
   const std::string& NameOfSet(const std::string& name) {
     return names_of_sets_.try_emplace(InUpperCase(name), name).first->second;
@@ -372,6 +418,7 @@ class AbaqusReader {
   std::vector<int64_t> pending_;  ///< number and nodes of an element that is not complete
   int pending_line_ = 0;
   std::unordered_map<int64_t, int64_t> node_of_number_;
+  int node_set_ = -1;  ///< of *NSET
   std::unordered_map<int64_t, int> tet_of_number_;
   std::map<std::string, std::string> names_of_sets_;  ///< of their names in upper case
   std::vector<Range> ranges_;

@@ -119,6 +119,14 @@ CellKind VtkCellKind(int64_t type, size_t node_count) {
   return Find(kVtkKinds, type);
 }
 
-CellKind GmshCellKind(int64_t type) { return Find(kGmshKinds, type); }
+CellKind GmshCellKind(int64_t type) {
+  constexpr int64_t kPoint = 15;
+  constexpr std::array<int64_t, 5> kLines = {1, 8, 26, 27, 28};
+  CellKind kind = Find(kGmshKinds, type);
+  if (kind.role != CellRole::kLowerDimension) return kind;
+  const bool is_line = std::find(kLines.begin(), kLines.end(), type) != kLines.end();
+  kind.dimension = type == kPoint ? 0 : (is_line ? 1 : 2);
+  return kind;
+}
 
 }  // namespace palpate::fem::mesh_io

@@ -20,6 +20,7 @@ struct CellKind {
   CellRole role = CellRole::kRefused;
   int node_count = 0;            ///< 0: any number
   const char* name = "unknown";  ///< for messages
+  int dimension = 3;             ///< of kLowerDimension 0 to 2, of Gmsh's types only
 };
 
 /// By the numbers of vtkCellType.h. A Lagrange tetrahedron is one of 4 or 10 nodes where it has

@@ -46,7 +46,7 @@ int64_t GmshReader::ReadElementBlock2(int64_t at_most) {
                                           : 1;
   const int64_t tag_count =
       scanner_.Integer(ScalarType::kInt32, 0, kMostTags, "the number of tags");
-  const bool is_tet = GmshCellKind(type).role != CellRole::kLowerDimension;
+  const int dimension = GmshCellKind(type).dimension;
   for (int64_t element = 0; element < count; ++element) {
     if (scanner_.binary()) ReadInt("an element tag");
     int64_t physical_tag = 0;
@@ -54,8 +54,8 @@ int64_t GmshReader::ReadElementBlock2(int64_t at_most) {
       const int64_t tag = ReadInt("a tag of an element");
       if (k == 0) physical_tag = std::abs(tag);
     }
-    const bool in_group = is_tet && physical_tag != 0;
-    ReadElement(type, tag_type_, in_group ? Groups{GroupOf(physical_tag)} : Groups{});
+    const bool in_group = physical_tag != 0 && KeepsGroupsOf(dimension);
+    ReadElement(type, tag_type_, in_group ? Groups{GroupOf(dimension, physical_tag)} : Groups{});
   }
   return count;
 }

@@ -9,12 +9,6 @@
 
 namespace palpate::fem::mesh_io {
 
-namespace {
-
-constexpr int kVolume = 3;
-
-}  // namespace
-
 void GmshReader::ReadEntities4() {
   BeginNumbers("the entities");
   std::array<int64_t, 4> counts{};
@@ -28,7 +22,7 @@ void GmshReader::ReadEntity4(int dimension) {
   const int64_t tag = ReadInt("an entity tag");
   SkipBounds4(dimension);
   Groups groups = ReadPhysicalTags4(dimension);
-  if (dimension == kVolume) groups_of_volume_[tag] = std::move(groups);
+  groups_of_entity_[{dimension, tag}] = std::move(groups);
   if (dimension == 0) return;
   const int64_t bounding = ReadSize("the number of bounding entities");
   for (int64_t k = 0; k < bounding; ++k) ReadInt("a bounding entity");
@@ -60,12 +54,10 @@ void GmshReader::ReadPartitionedEntity4(int dimension) {
   for (int64_t k = 0; k < partitions; ++k) ReadInt("a partition");
   SkipBounds4(dimension);
   Groups groups = ReadPhysicalTags4(dimension);
-  if (dimension == kVolume) {
-    const auto of_parent = groups_of_volume_.find(parent);
-    const bool inherits = groups.empty() && parent_dimension == kVolume;
-    if (inherits && of_parent != groups_of_volume_.end()) groups = of_parent->second;
-    groups_of_volume_[tag] = std::move(groups);
-  }
+  const auto of_parent = groups_of_entity_.find({dimension, parent});
+  const bool inherits = groups.empty() && parent_dimension == dimension;
+  if (inherits && of_parent != groups_of_entity_.end()) groups = of_parent->second;
+  groups_of_entity_[{dimension, tag}] = std::move(groups);
   if (dimension == 0) return;
   const int64_t bounding = ReadSize("the number of bounding entities");
   for (int64_t k = 0; k < bounding; ++k) ReadInt("a bounding entity");
@@ -82,7 +74,7 @@ GmshReader::Groups GmshReader::ReadPhysicalTags4(int dimension) {
   Groups groups;
   for (int64_t k = 0; k < count; ++k) {
     const int64_t tag = std::abs(ReadInt("a physical tag"));
-    if (dimension == kVolume && tag != 0) groups.push_back(GroupOf(tag));
+    if (tag != 0 && KeepsGroupsOf(dimension)) groups.push_back(GroupOf(dimension, tag));
   }
   return groups;
 }
@@ -154,8 +146,8 @@ int64_t GmshReader::ReadElementBlock4(int64_t at_most) {
   }
   const int64_t count = scanner_.Integer(size_type_, 0, at_most, "the elements of a block");
   CheckRoom(count, static_cast<size_t>(nodes_each + 1) * SizeInBytes(tag_type_), "elements");
-  const auto found = groups_of_volume_.find(entity);
-  const Groups groups = is_tet && found != groups_of_volume_.end() ? found->second : Groups{};
+  const auto found = groups_of_entity_.find({dimension, entity});
+  const Groups groups = found == groups_of_entity_.end() ? Groups{} : found->second;
   for (int64_t k = 0; k < count; ++k) {
     scanner_.Integer(tag_type_, 0, kMaxTag, "an element tag");
     ReadElement(type, tag_type_, groups);

@@ -91,7 +91,6 @@ void GmshReader::ReadSection(std::string_view name) {
 }
 
 void GmshReader::ReadPhysicalNames() {
-  constexpr int64_t kVolume = 3;
   const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of physical names");
   scanner_.Line("the physical names");
   for (int64_t k = 0; k < count; ++k) {
@@ -107,7 +106,7 @@ void GmshReader::ReadPhysicalNames() {
     if (values.size() == 2) dimension = values.front();
     tag = values.back();
     if (tag < 1 || tag > kMaxCount) scanner_.Fail("a physical tag must be 1 or more");
-    if (dimension == kVolume) volume_names_[tag] = line.substr(open + 1, close - open - 1);
+    names_[{dimension, tag}] = line.substr(open + 1, close - open - 1);
   }
 }
 
@@ -157,7 +156,10 @@ void GmshReader::ReadElement(int64_t type, ScalarType tag_type, const Groups& gr
   for (size_t k = 0; k < count; ++k) {
     nodes[k] = NodeOfTag(scanner_.Integer(tag_type, 1, kMaxTag, "a node tag"));
   }
-  if (kind.role == CellRole::kLowerDimension) return;
+  if (kind.role == CellRole::kLowerDimension) {
+    for (const int group : groups) builder_->AddToNodeGroup(group, std::span(nodes).first(count));
+    return;
+  }
   // Gmsh: ... 23 13; VTK: ... 13 23.
   if (kind.role == CellRole::kTet10) std::swap(nodes[8], nodes[9]);
   const auto element = kind.role == CellRole::kTet4 ? ElementType::kTet4 : ElementType::kTet10;
@@ -165,10 +167,15 @@ void GmshReader::ReadElement(int64_t type, ScalarType tag_type, const Groups& gr
   for (const int group : groups) builder_->AddToGroup(group, tet);
 }
 
-int GmshReader::GroupOf(int64_t physical_tag) {
-  const auto name = volume_names_.find(physical_tag);
-  return builder_->GroupNamed(name == volume_names_.end() ? std::to_string(physical_tag)
-                                                          : name->second);
+int GmshReader::GroupOf(int dimension, int64_t physical_tag) {
+  const auto found = names_.find({dimension, physical_tag});
+  const std::string name = found == names_.end() ? std::to_string(physical_tag) : found->second;
+  return dimension == kVolume ? builder_->GroupNamed(name)
+                              : builder_->NodeGroupNamed(name, dimension);
+}
+
+bool GmshReader::KeepsGroupsOf(int dimension) const {
+  return dimension == kVolume || builder_->KeepsNodeGroups();
 }
 
 int64_t GmshReader::ReadSize(const char* what) {

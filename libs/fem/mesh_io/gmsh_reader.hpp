@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libs/fem/mesh_io/mesh_builder.hpp"
@@ -25,7 +26,9 @@ class GmshReader {
 
  private:
   enum class Version { k2, k40, k41 };
-  using Groups = std::vector<int>;  ///< indices of the builder's groups
+  static constexpr int kVolume = 3;
+  /// Indices of the builder's groups; of points, lines and surfaces of its node groups.
+  using Groups = std::vector<int>;
 
   struct Node {
     int64_t tag = 0;
@@ -60,8 +63,9 @@ class GmshReader {
   void ReadElement(int64_t type, ScalarType tag_type, const Groups& groups);
   /// Throws where the element type is refused; else its number of nodes.
   int NodeCountOf(int64_t type);
-  /// The group of a physical volume, by its name where it has one.
-  int GroupOf(int64_t physical_tag);
+  /// The group of physical entities of this dimension, by its name where it has one.
+  int GroupOf(int dimension, int64_t physical_tag);
+  bool KeepsGroupsOf(int dimension) const;
 
   int64_t ReadSize(const char* what);
   int64_t ReadInt(const char* what);
@@ -80,8 +84,9 @@ class GmshReader {
   bool nodes_read_ = false;
   bool elements_read_ = false;
 
-  std::map<int64_t, std::string> volume_names_;  ///< by physical tag
-  std::map<int64_t, Groups> groups_of_volume_;   ///< 4: by entity tag
+  using Entity = std::pair<int64_t, int64_t>;  ///< dimension and tag
+  std::map<Entity, std::string> names_;        ///< of physical tags
+  std::map<Entity, Groups> groups_of_entity_;  ///< 4: by entity tag
 };
 
 }  // namespace palpate::fem::mesh_io

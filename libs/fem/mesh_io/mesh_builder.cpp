@@ -106,6 +106,26 @@ int MeshBuilder::GroupNamed(const std::string& name) {
   return entry->second;
 }
 
+int MeshBuilder::NodeGroupNamed(const std::string& name, int dimension) {
+  for (size_t k = 0; k < node_groups_.size(); ++k) {
+    const NodeGroup& group = node_groups_[k];
+    if (group.dimension == dimension && group.name == name) return static_cast<int>(k);
+  }
+  node_groups_.push_back({.name = name, .dimension = dimension, .elements = {}});
+  return static_cast<int>(node_groups_.size()) - 1;
+}
+
+void MeshBuilder::AddToNodeGroup(int group, std::span<const int64_t> nodes) {
+  CheckNodes(nodes);
+  std::vector<int>& element = node_groups_[At(group)].elements.emplace_back();
+  for (const int64_t node : nodes) element.push_back(static_cast<int>(node));
+}
+
+std::vector<NodeGroup> MeshBuilder::TakeNodeGroups() {
+  std::erase_if(node_groups_, [](const NodeGroup& group) { return group.elements.empty(); });
+  return std::move(node_groups_);
+}
+
 void MeshBuilder::CheckNodes(std::span<const int64_t> nodes) const {
   for (const int64_t node : nodes) {
     if (node < 0 || node >= NodeCount()) {
@@ -163,7 +183,8 @@ std::vector<CellGroup> MeshBuilder::TakeGroups() {
 }
 
 TetMesh MeshBuilder::Finish(double metres_per_unit, std::vector<std::string>* notes) && {
-  if (tet_count_ == 0) throw InputError(file_ + ": holds no tetrahedron");
+  if (tet_count_ == 0)
+    throw InputError(file_ + ": holds no tetrahedron: fill the surface with them (gmsh -3)");
   if (merge_equal_tets_ && groups_.size() > 1) KeepOneOfEqualTets();
   TetMesh mesh;
   mesh.nodes_m.resize(3, NodeCount());

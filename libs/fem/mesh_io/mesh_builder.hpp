@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libs/core/large_pages.hpp"
+#include "libs/fem/mesh_io/node_group.hpp"
 #include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::fem::mesh_io {
@@ -49,6 +50,15 @@ class MeshBuilder {
   int GroupNamed(const std::string& name);
   void AddToGroup(int group, int tet) { groups_[static_cast<size_t>(group)].cells.push_back(tet); }
 
+  /// Groups of points, lines and surfaces are dropped unless they are asked for before reading.
+  void KeepNodeGroups() { keep_node_groups_ = true; }
+  bool KeepsNodeGroups() const { return keep_node_groups_; }
+  /// Index of the group of this dimension, which is made where it is not there.
+  int NodeGroupNamed(const std::string& name, int dimension);
+  void AddToNodeGroup(int group, std::span<const int64_t> nodes);
+  /// Those with an element at least.
+  std::vector<NodeGroup> TakeNodeGroups();
+
   /// The mesh in metres, its cells positively oriented where that is possible (see ReadMesh).
   /// Throws InputError where there is no tetrahedron.
   TetMesh Finish(double metres_per_unit, std::vector<std::string>* notes) &&;
@@ -68,6 +78,8 @@ class MeshBuilder {
   int tet_count_ = 0;
   int nodes_per_cell_ = 0;  ///< 0: no tetrahedron yet
   bool merge_equal_tets_ = false;
+  bool keep_node_groups_ = false;
+  std::vector<NodeGroup> node_groups_;
 };
 
 }  // namespace palpate::fem::mesh_io

@@ -48,7 +48,7 @@ Reader ReaderOf(MeshKind kind) {
 }  // namespace
 
 TetMesh ReadMesh(const std::filesystem::path& file, double metres_per_unit,
-                 std::vector<std::string>* notes) {
+                 std::vector<std::string>* notes, std::vector<NodeGroup>* node_groups) {
   PALPATE_CHECK(std::isfinite(metres_per_unit) && metres_per_unit > 0.0, metres_per_unit);
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
   const std::string loaded = LoadBytes(file);
@@ -60,7 +60,9 @@ TetMesh ReadMesh(const std::filesystem::path& file, double metres_per_unit,
                      "' (known: " + MeshEndings() + ")");
   }
   mesh_io::MeshBuilder builder(file.string());
+  if (node_groups != nullptr) builder.KeepNodeGroups();
   read(bytes, &builder);
+  if (node_groups != nullptr) *node_groups = builder.TakeNodeGroups();
   return std::move(builder).Finish(metres_per_unit, notes);
 }
 

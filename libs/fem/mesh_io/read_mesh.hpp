@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "libs/fem/mesh_io/node_group.hpp"
 #include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::fem {
@@ -25,12 +26,14 @@ namespace palpate::fem {
 ///
 /// Nodes keep the order of the file (Gmsh: the order of their tags), whether a cell uses them or
 /// not. Cells that are oriented the other way round are turned where the mesh is sound then, and
-/// `notes` (may be null) says so.
+/// `notes` (may be null) says so. `node_groups` (may be null) takes what the file names besides
+/// volumes: physical surfaces, curves and points, and *NSET.
 ///
 /// Throws InputError (file:line:column, or the byte or array in binary data) on anything that is
 /// missing, cut off, miscounted, not finite or out of range. Inverted, degenerate and doubled
 /// cells are no matter of reading: see ReportMesh and CheckSolvable.
 TetMesh ReadMesh(const std::filesystem::path& file, double metres_per_unit,
-                 std::vector<std::string>* notes = nullptr);
+                 std::vector<std::string>* notes = nullptr,
+                 std::vector<NodeGroup>* node_groups = nullptr);
 
 }  // namespace palpate::fem

@@ -84,6 +84,10 @@ TEST_F(RobotBodyTest, WarnsOfACableInAHollow) {
               testing::ElementsAre(AllOf(HasSubstr("cable c: attachment lies in a hollow, 1.5 mm"),
                                          HasSubstr("in the material?"))));
   EXPECT_TRUE(Build(HollowRobot("[0.005, 0.015, 0.015]", "200.0e3")).warnings.empty());
+  // A guide that reaches the wall: the hollow is the channel of the cable.
+  std::string guided = HollowRobot("[0.0115, 0.015, 0.015]", "200.0e3");
+  guided.replace(guided.find("guide_radius_m: 0}"), 18, "guide_radius_m: 0.002}");
+  EXPECT_TRUE(Build(guided).warnings.empty());
   // Off the outer side.
   const RobotBody outside = Build(HollowRobot("[-0.001, 0.015, 0.015]", "200.0e3"));
   EXPECT_TRUE(outside.warnings.empty());
