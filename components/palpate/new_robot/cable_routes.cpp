@@ -79,7 +79,8 @@ CableRoute ParseCable(const std::string& text, const SourceMesh& source, const B
       points_m.emplace_back(metres_per_unit * ParsePoint(piece, what));
       continue;
     }
-    for (const auto& point_m : PointsOfName(piece, source, shape, what).colwise()) {
+    const Eigen::Matrix3Xd named_m = PointsOfName(piece, source, shape, what);
+    for (const auto& point_m : named_m.colwise()) {
       points_m.emplace_back(point_m);
     }
   }

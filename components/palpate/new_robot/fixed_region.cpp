@@ -99,8 +99,8 @@ std::vector<int> NodesOfNodeGroup(const fem::NodeGroup& group) {
 }
 
 std::vector<int> NodesOfCells(const fem::TetMesh& mesh, const std::vector<int>& cells) {
-  const auto nodes = mesh.cells(Eigen::all, cells).reshaped();
-  return {nodes.begin(), nodes.end()};
+  const Eigen::MatrixXi nodes = mesh.cells(Eigen::all, cells);
+  return {nodes.data(), nodes.data() + nodes.size()};
 }
 
 std::optional<std::vector<int>> NodesOfGroup(const SourceMesh& source, const std::string& name) {
