@@ -117,12 +117,10 @@ std::string CableOfName(const std::string& name, bool several) {
   const auto is_cable = [](const std::string& word) {
     return std::find(CableWords().begin(), CableWords().end(), word) != CableWords().end();
   };
-  const auto numbers = std::count_if(words.begin(), words.end(), IsNumber);
   const auto texts = std::count_if(words.begin(), words.end(), [&](const std::string& word) {
     return !IsNumber(word) && !is_cable(word);
   });
-  const bool counts = several && IsNumber(words.back()) && (numbers > 1 || texts > 0);
-  if (counts) words.pop_back();
+  if (several && words.size() > 1 && IsNumber(words.back())) words.pop_back();
   std::string cable;
   for (const std::string& word : words) {
     if (is_cable(word) && texts > 0) continue;
@@ -251,17 +249,25 @@ std::vector<CableRoute> GuessCables(const SourceMesh& source, const BodyShape& s
 
 void AddEyelets(const BodyShape& shape, CableRoute* route) {
   if (route->path_m.cols() != 2) return;
-  constexpr int kSamples = 40;
+  constexpr int kSamples = 60;
   const fem::PointLocator locator(shape.mesh);
-  const Eigen::Matrix3Xd line_m =
-      StraightPath_m(route->path_m.col(0), route->path_m.col(1), kSamples);
-  // The ends may lie on the surface, or before it.
-  for (int k = 2; k < kSamples - 1; ++k) {
-    if (locator.Distance_m(line_m.col(k)) > shape.flatness_m()) return;
+  const Eigen::Vector3d last_m = route->path_m.col(1);
+  const Eigen::Matrix3Xd line_m = StraightPath_m(route->path_m.col(0), last_m, kSamples);
+  const auto is_inside = [&](int k) {
+    return locator.Distance_m(line_m.col(k)) <= shape.flatness_m();
+  };
+  int entry = 0;
+  while (entry < kSamples && !is_inside(entry)) ++entry;
+  // The attachment may lie on the surface, or just before it.
+  for (int k = entry; k < kSamples - 1; ++k) {
+    if (!is_inside(k)) return;
   }
-  const double length_m = (route->path_m.col(1) - route->path_m.col(0)).norm();
+  const double length_m = (last_m - line_m.col(entry)).norm();
+  if (length_m < 2.0 * shape.element_m) return;
   const int steps = StepsAlong(shape, length_m);
-  route->path_m = StraightPath_m(route->path_m.col(0), route->path_m.col(1), steps);
+  Eigen::Matrix3Xd path_m = StraightPath_m(line_m.col(entry), last_m, steps);
+  path_m.col(0) = route->path_m.col(0);
+  route->path_m = path_m;
   route->why +=
       fmt::format("; the line runs in the body, so {} eyelets were added along it", steps - 1);
 }

@@ -47,7 +47,8 @@ Wall WallOf(const geometry::TriangleSurface& surface, const std::vector<int>& fa
 /// Without the bottom of a blind hole.
 std::optional<Wall> WithoutBottom(const geometry::TriangleSurface& surface,
                                   const std::vector<int>& patch) {
-  constexpr double kAcross = 0.5, kParallel = 0.15, kLeastShare = 0.7;
+  // Flat triangles on a cylinder lean a little to its axis, the more the coarser they are.
+  constexpr double kAcross = 0.5, kMeanLean = 0.25, kLeastShare = 0.7;
   const Wall rough = WallOf(surface, patch);
   std::vector<int> sides;
   for (const int face : patch) {
@@ -57,10 +58,13 @@ std::optional<Wall> WithoutBottom(const geometry::TriangleSurface& surface,
   if (static_cast<int>(sides.size()) < kFewestFaces) return std::nullopt;
   Wall wall = WallOf(surface, sides);
   if (wall.area_m2 < kLeastShare * rough.area_m2) return std::nullopt;
+  double lean_m2 = 0.0;  // squared, times the area
   for (const int face : sides) {
-    const Eigen::Vector3d normal = geometry::TriangleNormal(surface, face);
-    if (std::abs(normal.dot(wall.axis)) > kParallel) return std::nullopt;
+    const double area_m2 = geometry::TriangleAreaVector_m2(surface, face).norm();
+    const double lean = geometry::TriangleNormal(surface, face).dot(wall.axis);
+    lean_m2 += area_m2 * lean * lean;
   }
+  if (lean_m2 > kMeanLean * kMeanLean * wall.area_m2) return std::nullopt;
   return wall;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -37,10 +38,11 @@ void PrintDecisions(const RobotDraft& draft) {
 
 /// Fewer than two elements across the thinnest direction bend too softly or too stiffly.
 void PrintMeshAdvice(const RobotDraft& draft) {
-  constexpr double kLayers = 2.0;
+  // An element of equal edges is less high than its edge is long.
+  constexpr double kLayers = 2.0, kHeightOfEdge = 0.7;
   constexpr int kManyNodes = 20000;
   const BodyShape& shape = draft.shape;
-  if (shape.extents_m(2) < kLayers * shape.element_m) {
+  if (shape.extents_m(2) < kLayers * kHeightOfEdge * shape.element_m) {
     fmt::print(
         "warning: elements of {} in a body of {} across: at least two layers keep the error "
         "of deflections within 0.5 %; mesh it finer\n",
@@ -116,6 +118,8 @@ int NewRobot(const NewRobotOptions& options, std::istream* answers) {
       MakeRehearsal(draft, files.robot.filename().string(), files.scenario.filename().string(),
                     files.calibration.filename().string());
   WriteRobotFolder(draft, rehearsal, files);
+  fmt::print("computing the equilibrium under gravity, and a small pull of each cable ...\n");
+  std::fflush(stdout);
   const RobotCheck check = CheckWritten(draft, files);
   PrintCheck(check);
   PrintNext(draft, rehearsal, files);

@@ -88,7 +88,8 @@ Stage MakeStage(const RobotDraft& draft) {
       0.5 * (shape.box.lower_m + shape.box.upper_m) + distance_m * stage.view;
   ChoosePush(draft, &stage);
   stage.radius_m = std::max(0.05 * shape.diagonal_m, shape.element_m);
-  stage.depth_m = 0.015 * shape.diagonal_m;
+  // A long body bends away from the ball, a compact one is dented.
+  stage.depth_m = (shape.is_long() ? 0.04 : 0.015) * shape.diagonal_m;
   return stage;
 }
 

@@ -79,7 +79,7 @@ Decision DecideUnit(const SourceMesh& source, const std::string& given) {
   decision.trust = least <= 1.0 && second - least >= kClearly && decision.value != "cm"
                        ? Trust::kLikely
                        : Trust::kUnsure;
-  decision.why = fmt::format("the body is {:.4g} long in the file: {} in mm, {} in cm, {} in m",
+  decision.why = fmt::format("the body is {:.4g} long in the file: {} as mm, {} as cm, {} as m",
                              length, in_unit("mm"), in_unit("cm"), in_unit("m"));
   return decision;
 }

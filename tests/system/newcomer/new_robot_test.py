@@ -58,10 +58,9 @@ def run(command, folder, programs):
     return result.stdout
 
 
-def steady(rows):
-    """Rows of forces.csv while the ball stands still."""
-    return [row for row in rows if row["recording"].endswith("_push")
-            and 4.5 <= float(row["t_s"]) <= 5.8 and row["contact"]]
+def is_steady(t_s, push):
+    """Whether the ball stands still, by the scenario; all times are those of the experiment."""
+    return 4.5 <= t_s - push["frames"][0]["t_s"] <= 5.8
 
 
 def check_forces(folder):
@@ -70,8 +69,9 @@ def check_forces(folder):
     answer = json.loads(pathlib.Path(str(folder / "exp") + ".answer.json").read_text())
     push = next(r for r in answer["recordings"] if r["name"].endswith("_push"))
     truths = [math.hypot(*f["forces"][0]["force_N"]) for f in push["frames"]
-              if 4.5 <= f["t_s"] - push["frames"][0]["t_s"] <= 5.8 and f["forces"]]
-    found = [math.hypot(*(float(row[f"f{a}_N"]) for a in "xyz")) for row in steady(rows)]
+              if is_steady(f["t_s"], push) and f["forces"]]
+    found = [math.hypot(*(float(row[f"f{a}_N"]) for a in "xyz")) for row in rows
+             if row["contact"] and is_steady(float(row["t_s"]), push)]
     assert truths and len(found) >= 0.8 * len(truths), (len(found), len(truths))
     truth_N, force_N = sum(truths) / len(truths), sorted(found)[len(found) // 2]
     print(f"push: {force_N:.3f} N, truth {truth_N:.3f} N")

@@ -52,7 +52,7 @@ TEST_F(NewRobotGuess, TakesTheUnitInWhichTheBodyHasTheSizeOfARobot) {
   EXPECT_EQ(UnitOf(0.12).value, "m");
   EXPECT_EQ(UnitOf(0.12).trust, Trust::kLikely);
   EXPECT_EQ(UnitOf(12).trust, Trust::kUnsure);  // 12 mm or 12 cm
-  EXPECT_THAT(UnitOf(120).why, AllOf(HasSubstr("120 mm in mm"), HasSubstr("120 m in m")));
+  EXPECT_THAT(UnitOf(120).why, AllOf(HasSubstr("120 mm as mm"), HasSubstr("120 m as m")));
 }
 
 TEST_F(NewRobotGuess, BelievesAUnitThatTheFileSays) {
