@@ -97,7 +97,8 @@ RobotCheck CheckWritten(const RobotDraft& draft, const RobotFolder& files) {
   robot::RobotModel model(robot::BuildRobotBody(robot::ReadRobotFile(files.robot, app::LoadYaml)));
   for (const std::string& warning : model.body().warnings) fmt::print("warning: {}\n", warning);
   view::SaveScene(files.picture, NewRobotScene(draft, model));
-  return CheckRobot(&model);
+  constexpr double kPatience_s = 60.0;
+  return CheckRobot(&model, kPatience_s);
 }
 
 }  // namespace

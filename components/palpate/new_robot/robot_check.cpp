@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 #include "components/palpate/new_robot/unit_guess.hpp"
 #include "components/palpate/robot_scene.hpp"
@@ -72,8 +74,17 @@ void WarnOfPull(const PullTrial& trial, std::vector<std::string>* warnings) {
   }
 }
 
+void WarnOfTime(const robot::RobotBody& body, double most_s, RobotCheck* check) {
+  if (!check->cut_short) return;
+  check->warnings.push_back(
+      fmt::format("{} of {} cables were tried in {:.0f} s: the mesh has {} nodes with 10-node "
+                  "elements. palpate solve tries them all; a coarser mesh is faster",
+                  check->pulls.size(), body.cables.size(), most_s, body.mesh.NodeCount()));
+}
+
 void WarnOfSag(double diagonal_m, RobotCheck* check) {
   constexpr double kFar = 0.25;
+  if (check->cut_short && !check->rest.ok()) return;
   if (!check->rest.ok()) {
     check->warnings.push_back("no equilibrium under gravity: " + check->rest.message() +
                               ". Check unit, material and what is fixed");
@@ -88,28 +99,38 @@ void WarnOfSag(double diagonal_m, RobotCheck* check) {
 }  // namespace
 
 bool RobotCheck::ok() const {
-  return rest.ok() && std::all_of(pulls.begin(), pulls.end(),
-                                  [](const PullTrial& trial) { return trial.status.ok(); });
+  return (rest.ok() || cut_short) && std::all_of(pulls.begin(), pulls.end(), [](const auto& trial) {
+           return trial.status.ok();
+         });
 }
 
 double TrialPull_m(const robot::RobotBody& body) { return 0.01 * BodyDiagonal_m(body); }
 
-RobotCheck CheckRobot(robot::RobotModel* model) {
+RobotCheck CheckRobot(robot::RobotModel* model, double most_s) {
   RobotCheck check;
   const robot::RobotBody& body = model->body();
   const Eigen::Index tip = TipOf(body);
   check.tip_m = body.mesh.nodes_m.col(tip);
   const std::int64_t start_ns = MonotonicNow_ns();
+  const auto elapsed_s = [&] { return 1e-9 * static_cast<double>(MonotonicNow_ns() - start_ns); };
+  model->static_solver().SetObserver([&](const fem::StaticResult&) {
+    check.cut_short = check.cut_short || elapsed_s() > most_s;
+    return !check.cut_short;
+  });
   fem::StaticState rest = model->RestState();
-  check.rest = model->Solve(std::vector<CableCommand>(At(model->CableCount())), {}, &rest).status;
+  const std::vector<CableCommand> no_commands(At(model->CableCount()));
+  check.rest = model->Solve(no_commands, {}, &rest).status;
   int solved = 1;
   if (check.rest.ok()) {
     check.sag_m = (Nodes(rest.x_m) - body.mesh.nodes_m).colwise().norm().maxCoeff();
-    for (int cable = 0; cable < model->CableCount(); ++cable, ++solved) {
-      check.pulls.push_back(Pull(cable, TrialPull_m(body), tip, rest, model));
+    for (int cable = 0; cable < model->CableCount() && !check.cut_short; ++cable, ++solved) {
+      PullTrial trial = Pull(cable, TrialPull_m(body), tip, rest, model);
+      if (!check.cut_short) check.pulls.push_back(std::move(trial));
     }
   }
-  check.solve_s = 1e-9 * static_cast<double>(MonotonicNow_ns() - start_ns) / solved;
+  model->static_solver().SetObserver({});
+  check.solve_s = elapsed_s() / solved;
+  WarnOfTime(body, most_s, &check);
   WarnOfSag(BodyDiagonal_m(body), &check);
   for (const PullTrial& trial : check.pulls) WarnOfPull(trial, &check.warnings);
   return check;

@@ -31,12 +31,15 @@ struct RobotCheck {
   double solve_s = 0.0;               ///< mean duration of one equilibrium
   std::vector<std::string> warnings;  ///< in words: what is likely wrong, and what to do
 
-  bool ok() const;  ///< all equilibria were found
+  bool cut_short = false;  ///< the time was up; what was not tried is no failure
+
+  bool ok() const;  ///< all equilibria that were tried were found
 };
 
 /// How far the cables of a body are pulled to try them: a hundredth of its diagonal.
 double TrialPull_m(const robot::RobotBody& body);
 
-RobotCheck CheckRobot(robot::RobotModel* model);
+/// Takes at most about `most_s`.
+RobotCheck CheckRobot(robot::RobotModel* model, double most_s);
 
 }  // namespace palpate::command
