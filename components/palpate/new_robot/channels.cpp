@@ -3,6 +3,7 @@
 
 #include "components/palpate/new_robot/channels.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -89,7 +90,7 @@ std::optional<Channel> FitCircle(const geometry::TriangleSurface& surface, const
     normal_matrix += row * row.transpose();
     right_side += row * n.dot(surface.Corner(face, 0));
   }
-  const Eigen::Vector3d fit = normal_matrix.ldlt().solve(right_side);
+  const Eigen::Vector3d fit = Eigen::LDLT<Eigen::Matrix3d>(normal_matrix).solve(right_side);
   if (!fit.allFinite() || fit(2) <= 0.0) return std::nullopt;
   const Eigen::Vector3d centre_m = fit(0) * u + fit(1) * v;
   double low_m = 0.0, high_m = 0.0, sum_m = 0.0;

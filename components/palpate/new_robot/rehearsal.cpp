@@ -207,7 +207,7 @@ std::string SystemText(const RobotDraft& draft, const Stage& stage, const std::s
       - name: force_estimation
         component: force_estimation
         arguments: [$(robot), --calibration, $(calibration)]
-        set: {camera_pose: "$(camera_pose)"}
+        set: {source: shape}
         required: true
         respawn: {}
       - name: view
