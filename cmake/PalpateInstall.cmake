@@ -62,21 +62,42 @@ install(CODE [[
   file(INSTALL ${unit_settings} DESTINATION "${staged_etc}/palpate")
 ]] COMPONENT programs)
 
-# Libraries and headers. A program that links them includes "libs/fem/elastic_body.hpp".
+# Libraries and headers. A program that links them includes "libs/fem/elastic_body.hpp". Component
+# engine: finite elements and robots alone, which need neither DDS nor YAML, with the headers that
+# their public ones reach. Component development: all the rest.
+include(PalpateEngine)
 set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/palpate)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/palpate)
 get_property(libraries GLOBAL PROPERTY PALPATE_LIBRARIES)
 list(REMOVE_ITEM libraries palpate)
 foreach(library IN LISTS libraries)
   set_target_properties(palpate_${library} PROPERTIES EXPORT_NAME ${library})
-  list(APPEND targets palpate_${library})
+  if(library IN_LIST PALPATE_ENGINE_LIBRARIES)
+    list(APPEND engine_targets palpate_${library})
+  else()
+    list(APPEND targets palpate_${library})
+  endif()
 endforeach()
-install(TARGETS ${targets} palpate_suitesparse palpate_ipopt EXPORT palpate_targets
+install(TARGETS ${engine_targets} palpate_suitesparse EXPORT palpate_engine_targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT engine
+        INCLUDES DESTINATION ${header_folder})
+install(TARGETS ${targets} palpate_ipopt EXPORT palpate_targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
         INCLUDES DESTINATION ${header_folder})
+install(EXPORT palpate_engine_targets NAMESPACE palpate:: FILE palpate-engine-targets.cmake
+        DESTINATION ${package_folder} COMPONENT engine)
 install(EXPORT palpate_targets NAMESPACE palpate:: FILE palpate-targets.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/palpate COMPONENT development)
+        DESTINATION ${package_folder} COMPONENT development)
+palpate_engine_headers(engine_headers)
+foreach(header IN LISTS engine_headers)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${header_folder}/${folder} COMPONENT engine)
+  string(REPLACE "." "\\." pattern ${header})
+  list(APPEND without_engine REGEX "/${pattern}$" EXCLUDE)
+endforeach()
 install(DIRECTORY libs components DESTINATION ${header_folder} COMPONENT development
-        FILES_MATCHING PATTERN "*.hpp" PATTERN node EXCLUDE PATTERN components/palpate EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN node EXCLUDE PATTERN components/palpate EXCLUDE
+        ${without_engine})
 install(DIRECTORY ${CMAKE_BINARY_DIR}/idl/ DESTINATION ${header_folder} COMPONENT development
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN CMakeFiles EXCLUDE)
 install(FILES idl/message_traits.hpp DESTINATION ${header_folder}/idl COMPONENT development)
@@ -84,10 +105,9 @@ install(FILES idl/message_traits.hpp DESTINATION ${header_folder}/idl COMPONENT 
 install(DIRECTORY idl/palpate_msgs DESTINATION ${files_folder}/idl COMPONENT development)
 
 configure_package_config_file(cmake/palpate-config.cmake.in
-  ${CMAKE_BINARY_DIR}/palpate-config.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/palpate)
+  ${CMAKE_BINARY_DIR}/palpate-config.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/palpate-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/palpate-config.cmake
               ${CMAKE_BINARY_DIR}/palpate-config-version.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/palpate COMPONENT development)
+        DESTINATION ${package_folder} COMPONENT engine)

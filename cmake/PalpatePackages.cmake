@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-# The Debian packages palpate and palpate-dev, made by cpack from the install rules. ./run package
-# builds what they hold and then calls cpack.
+# The Debian packages palpate, palpate-engine-dev and palpate-dev, made by cpack from the install
+# rules. ./run package builds what they hold and then calls cpack.
 set(control_folder ${PROJECT_SOURCE_DIR}/cmake/debian)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_PACKAGE_CONTACT "The palpate authors <palpate@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL programs development)
+set(CPACK_COMPONENTS_ALL programs engine development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
@@ -32,13 +32,21 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA
     ${control_folder}/postinst ${control_folder}/prerm ${control_folder}/postrm
     ${CMAKE_BINARY_DIR}/debian/conffiles)
 
+set(CPACK_DEBIAN_ENGINE_PACKAGE_NAME palpate-engine-dev)
+set(CPACK_DEBIAN_ENGINE_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_ENGINE_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, \
+libtinyxml2-dev, zlib1g-dev, liblzma-dev, liblz4-dev, pkg-config")
+set(CPACK_DEBIAN_ENGINE_DESCRIPTION "finite-element models of soft robots - development files
+Meshes, static equilibria, compliances and sensitivities of cable-driven soft
+robots: the libraries fem and robot of palpate, their headers, and a CMake
+package. They need neither DDS nor a settings file.")
+
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME palpate-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, \
-libyaml-cpp-dev, libcli11-dev, libspdlog-dev, libfmt-dev, nlohmann-json3-dev, \
-libtinyxml2-dev, libssl-dev, zlib1g-dev, liblzma-dev, \
-libpng-dev, libjpeg62-turbo-dev, libzstd-dev, liblz4-dev, libdeflate-dev, libsqlite3-dev, \
-cyclonedds-dev, libaravis-dev, libpcl-dev, coinor-libipopt-dev, pkg-config")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "palpate-engine-dev (= ${PROJECT_VERSION}), \
+libyaml-cpp-dev, libcli11-dev, libspdlog-dev, libfmt-dev, nlohmann-json3-dev, libssl-dev, \
+libpng-dev, libjpeg62-turbo-dev, libzstd-dev, libdeflate-dev, libsqlite3-dev, \
+cyclonedds-dev, libaravis-dev, libpcl-dev, coinor-libipopt-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS palpate)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "forces on soft robots from images - development files
 The libraries of palpate (finite elements, robots, cameras, recordings, DDS)
@@ -52,8 +60,8 @@ foreach(file IN LISTS unit_settings)
 endforeach()
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/debian/conffiles CONTENT "${conffiles}")
 
-# copyright and changelog of both packages
-foreach(package programs:palpate development:palpate-dev)
+# copyright and changelog of all packages
+foreach(package programs:palpate engine:palpate-engine-dev development:palpate-dev)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 component)
   list(GET package 1 name)

@@ -48,7 +48,7 @@ class Packages(unittest.TestCase):
         architecture = run("dpkg", "--print-architecture").strip()
         self.assertEqual({file.name for file in self.packages.values()},
                          {f"{name}_{version}_{architecture}.deb"
-                          for name in ("palpate", "palpate-dev")})
+                          for name in ("palpate", "palpate-engine-dev", "palpate-dev")})
 
     def test_programs_come_with_manuals_completions_and_units(self):
         names = self.names_of("palpate")
@@ -64,10 +64,20 @@ class Packages(unittest.TestCase):
             self.assertIn(name, names)
         self.assertFalse([name for name in names if name.endswith((".a", ".hpp"))])
 
-    def test_libraries_and_headers_are_in_the_other(self):
-        names = self.names_of("palpate-dev")
+    def test_the_engine_has_a_package_without_dds_and_settings(self):
+        names = self.names_of("palpate-engine-dev")
         for name in ("/usr/lib/libpalpate_fem.a", "/usr/lib/cmake/palpate/palpate-config.cmake",
-                     "/usr/include/palpate/libs/fem/elastic_body.hpp",
+                     "/usr/include/palpate/libs/fem/elastic_body.hpp"):
+            self.assertIn(name, names)
+        depends = run("dpkg-deb", "--field", self.packages["palpate-engine-dev"], "Depends")
+        self.assertNotIn("cyclonedds", depends)
+        self.assertNotIn("yaml", depends)
+        files = {name for name in names if not name.endswith("/")}
+        self.assertFalse({name for name in files & self.names_of("palpate-dev")})
+
+    def test_all_other_libraries_and_headers_are_in_another(self):
+        names = self.names_of("palpate-dev")
+        for name in ("/usr/lib/libpalpate_dds.a", "/usr/include/palpate/libs/app/yaml.hpp",
                      "/usr/include/palpate/palpate_msgs/msg/ForceArray.h",
                      "/usr/share/palpate/idl/palpate_msgs/package.xml"):
             self.assertIn(name, names)

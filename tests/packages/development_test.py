@@ -17,7 +17,8 @@ def main():
     source, build = map(pathlib.Path, sys.argv[1:3])
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        run("cmake", "--install", build, "--component", "development", "--prefix", folder / "a")
+        for component in ("engine", "development"):
+            run("cmake", "--install", build, "--component", component, "--prefix", folder / "a")
         (folder / "a").rename(folder / "moved")
         run("cmake", "-S", source / "tests/packages/consumer", "-B", folder / "build", "-G",
             "Ninja", f"-DCMAKE_PREFIX_PATH={folder / 'moved'}", "-DCMAKE_BUILD_TYPE=Debug")
