@@ -72,6 +72,12 @@ function(palpate_even_batches out count wanted)
   set(${out} ${batch} PARENT_SCOPE)
 endfunction()
 
+# palpate_position_independent(TARGET): for code that becomes part of a shared object.
+function(palpate_position_independent target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
+                        CXX_VISIBILITY_PRESET hidden)
+endfunction()
+
 # palpate_own_code(TARGET [PCH name]): the warnings, the precompiled header where there is one, and,
 # in the tidy preset, clang-tidy.
 function(palpate_own_code target)

@@ -8,8 +8,9 @@ if(NOT PALPATE_PCH)
   return()
 endif()
 
-# GCC takes a precompiled header only where the code model is the same, so libraries and programs
-# share the compiler's own default.
+# GCC takes a precompiled header only where the code model is the same: programs, tests and the
+# libraries of programs alone share the compiler's own default, and the libraries of the Python
+# module (PalpateTargets.cmake) have a header of their own.
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 
 # ccache caches precompiled headers only with a sloppiness that ignores changes of macros.
@@ -32,6 +33,8 @@ endfunction()
 set(common_headers <Eigen/Core> <Eigen/Geometry> <algorithm> <filesystem> <functional> <string>
     <vector>)
 palpate_add_precompiled(palpate_pch LIBS Eigen3::Eigen HEADERS ${common_headers})
+palpate_add_precompiled(palpate_module_pch LIBS Eigen3::Eigen HEADERS ${common_headers})
+palpate_position_independent(palpate_module_pch)
 if(PALPATE_BUILD_TESTS)
   palpate_add_precompiled(palpate_test_pch LIBS Eigen3::Eigen GTest::gmock GTest::gtest
                           HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h>)

@@ -2,6 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # The two shapes a folder of this project can have: a library or a component.
 
+# What the Python module links, a shared object: position-independent in every build, so that
+# programs and module have the same objects and give the same bits. Names are hidden outside of the
+# object, so that calls between functions of ours stay direct and cost programs nothing.
+set(PALPATE_MODULE_LIBRARIES core linalg app geometry fem robot rgbd correspondence experiment
+    force_estimation)
+
 # palpate_add_library(NAME [LIBS lib...] [PUBLIC target...] [PRIVATE target...] [EXCLUDE regex...])
 # The sources of this folder and its subfolders as target palpate::NAME.
 # LIBS are libraries of this project; PUBLIC third-party targets that our headers show, PRIVATE
@@ -17,7 +23,12 @@ function(palpate_add_library name)
     add_library(palpate_${name} STATIC ${sources})
     target_include_directories(palpate_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
     target_link_libraries(palpate_${name} PUBLIC ${ARG_LIBS} ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-    palpate_own_code(palpate_${name})
+    if(name IN_LIST PALPATE_MODULE_LIBRARIES)
+      palpate_position_independent(palpate_${name})
+      palpate_own_code(palpate_${name} PCH palpate_module_pch)
+    else()
+      palpate_own_code(palpate_${name})
+    endif()
   else()
     add_library(palpate_${name} INTERFACE)
     target_include_directories(palpate_${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)

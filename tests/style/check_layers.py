@@ -62,6 +62,8 @@ COMPONENT_LAYERS = {
     },
 }
 NOT_FOR_ALGORITHMS = {"app", "dds", "monitor"}
+# The Python module has algorithms and settings files, as the command palpate has.
+NOT_FOR_PYTHON = {"dds", "monitor"}
 
 # Third-party headers that stay behind one library: pattern, libraries, what to use instead.
 THIRD_PARTY = [
@@ -94,13 +96,14 @@ KNOW_TRUTH = {"virtual_robot", "virtual_camera"}
 # nothing to those who estimate.
 COMPARE_WITH_TRUTH = re.compile(
     r"components/(?:palpate/node/demo/live_listener|view/node/\w+)\.cpp$")
+PYTHON_HEADER = re.compile(r"pybind11/|Python\.h")
 DDS_HEADER = re.compile(r"(?:dds|ddsc)/")
 
 
 @dataclasses.dataclass(frozen=True)
 class Place:
     """Where a file stands: libs/fem, components/view, components/view/node, idl, tests."""
-    kind: str  # library | algorithm | node | idl | tests | other
+    kind: str  # library | algorithm | node | python | idl | tests | other
     name: str = ""
 
 
@@ -110,7 +113,7 @@ def place_of(path):
         return Place("library", parts[1])
     if parts[0] == "components" and len(parts) > 2:
         return Place("node" if parts[2] == "node" else "algorithm", parts[1])
-    if parts[0] in ("idl", "tests"):
+    if parts[0] in ("idl", "tests", "python"):
         return Place(parts[0])
     return Place("other")
 
@@ -124,6 +127,8 @@ def check_library(source, target):
         if target not in LIBRARIES[source.name]:
             allowed = ", ".join(sorted(LIBRARIES[source.name])) or "nothing"
             return f"libs/{source.name} may include {allowed}, not libs/{target}"
+    if source.kind == "python" and target in NOT_FOR_PYTHON:
+        return f"libs/{target} not in python/: it has no DDS"
     if source.kind == "algorithm" and target in NOT_FOR_ALGORITHMS:
         if source.name == "palpate" and target == "app":
             return ""
@@ -134,6 +139,10 @@ def check_library(source, target):
 def check_component(source, target):
     if source.kind == "library":
         return "a library includes no component"
+    if source.kind == "python":
+        if target.kind == "node" or target.name == "palpate":
+            return "python/ includes algorithms of components, neither nodes nor the command"
+        return ""
     own = source.name == target.name
     if not own and source.name != "palpate":
         return "no component includes another (components/palpate excepted)"
@@ -149,6 +158,8 @@ def check_dds(source):
 
 
 def check_third_party(source, header):
+    if PYTHON_HEADER.match(header) and source.kind != "python":
+        return "pybind11 only in python/"
     for pattern, libraries, rule in THIRD_PARTY:
         inside = source.kind == "library" and source.name in libraries
         if pattern.match(header) and not inside:
@@ -183,6 +194,8 @@ def check_include(source, header, quoted, messages):
         return check_component(source, target)
     if quoted and target.kind == "tests":
         return "only tests include tests"
+    if quoted and target.kind == "python":
+        return "" if source.kind == "python" else "only python/ includes python/"
     third_party = check_third_party(source, header)
     if third_party or not quoted or source.kind == "idl":
         return third_party

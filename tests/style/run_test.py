@@ -88,6 +88,7 @@ class RunTest(unittest.TestCase):
         self.assertEqual(self.built(), ["tests"])
         self.assertIn(" -LE nightly -R core", self.noted("ctest")[0])
         self.assertTrue(self.needs("libgtest-dev"))
+        self.assertTrue(self.needs("pybind11-dev"))
         self.assertFalse(self.needs("libbenchmark-dev"))
 
     def test_nightly_is_all(self):
@@ -110,6 +111,13 @@ class RunTest(unittest.TestCase):
         self.assertTrue(self.needs("dpkg-dev"))
         self.assertFalse(self.needs("libgtest-dev"))
         self.assertEqual(self.call("./run", "package", "palpate"), 1)
+
+    def test_wheel_builds_the_python_package_alone(self):
+        self.assertEqual(self.call("./run", "wheel"), 0, self.output)
+        self.assertEqual(self.built(), ["wheel"])
+        self.assertTrue(self.needs("pybind11-dev"))
+        self.assertFalse(self.needs("libgtest-dev"))
+        self.assertEqual(self.call("./run", "wheel", "here"), 1)
 
     def test_warnings_are_errors_in_ci_alone(self):
         self.call("./run", "build")

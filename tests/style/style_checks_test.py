@@ -68,6 +68,19 @@ class CheckLayers(TreeTest):
         self.assert_broken("libs/new/a.cpp", '"libs/core/b.hpp"', "not in the table")
         self.assert_broken("libs/core/a.cpp", '"components/view/b.hpp"', "no component")
 
+    def test_the_python_module_has_algorithms_and_settings_and_no_dds(self):
+        bindings = "python/bindings/a.cpp"
+        self.assertEqual(self.broken(bindings, '"libs/app/yaml.hpp"'), "")
+        self.assertEqual(self.broken(bindings, '"components/calibration/b.hpp"'), "")
+        self.assertEqual(self.broken(bindings, '"python/bindings/b.hpp"'), "")
+        self.assertEqual(self.broken(bindings, "<pybind11/numpy.h>"), "")
+        self.assert_broken(bindings, '"libs/dds/b.hpp"', "no DDS")
+        self.assert_broken(bindings, "<dds/dds.h>", "only in libs/dds and node/")
+        self.assert_broken(bindings, '"components/view/node/b.hpp"', "neither nodes")
+        self.assert_broken(bindings, '"components/palpate/b.hpp"', "nor the command")
+        self.assert_broken("libs/fem/a.cpp", '"python/bindings/b.hpp"', "only python/")
+        self.assert_broken("libs/fem/a.cpp", "<pybind11/numpy.h>", "pybind11 only in python/")
+
     def test_algorithms_know_neither_app_nor_dds_nor_messages(self):
         algorithm = "components/view/a.cpp"
         self.assertEqual(self.broken(algorithm, '"libs/robot/b.hpp"'), "")

@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+"""Finite-element models of soft robots, and forces on them from measured markers.
+
+SI units, robot frame; names end in their unit. Points are arrays of shape (n, 3). Arrays that an
+object hands out are read-only views of its memory.
+"""
+
+from palpate._engine import (
+    Compliance,
+    ContactForce,
+    Equilibrium,
+    Experiment,
+    ForceEstimate,
+    InputError,
+    KnownLoad,
+    Load,
+    MarkerEstimator,
+    MarkerFrame,
+    Parameter,
+    Patch,
+    Recording,
+    Robot,
+    RunError,
+    Sensitivity,
+    SolveError,
+    __version__,
+    compliance,
+    marker_frames,
+    sensitivity,
+)
+
+__all__ = [
+    "Compliance",
+    "ContactForce",
+    "Equilibrium",
+    "Experiment",
+    "ForceEstimate",
+    "InputError",
+    "KnownLoad",
+    "Load",
+    "MarkerEstimator",
+    "MarkerFrame",
+    "Parameter",
+    "Patch",
+    "Recording",
+    "Robot",
+    "RunError",
+    "Sensitivity",
+    "SolveError",
+    "__version__",
+    "compliance",
+    "marker_frames",
+    "sensitivity",
+]

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every script of python/examples runs, and prints what its last lines say it prints."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from project import BEAM, BEAM_DATA, SOURCE, run_palpate
+
+EXAMPLES = sorted((SOURCE / "python/examples").glob("*.py"))
+# The result of each: pattern of a printed line, and the range of its number.
+RESULTS = {
+    "solve_and_plot.py": (r"tip moved by ([\d.]+) mm", 2.0, 20.0),
+    "estimate_recording.py": (r"mean force ([\d.]+) N", 0.459, 0.561),
+    "own_loop.py": (r"recovered ([\d.]+) of the force", 0.97, 1.03),
+}
+
+
+class Examples(unittest.TestCase):
+    def test_each_has_a_result_here(self):
+        self.assertEqual({path.name for path in EXAMPLES}, set(RESULTS))
+
+    def test_each_runs_and_finds_its_result(self):
+        for path in EXAMPLES:
+            with self.subTest(path.name), tempfile.TemporaryDirectory() as folder:
+                arguments = []
+                if path.name == "estimate_recording.py":
+                    arguments = [os.path.join(folder, "calibration.yaml")]
+                    run_palpate("calibrate", BEAM, "--data", BEAM_DATA, "--recording",
+                                "self_weight", "--out", *arguments)
+                done = subprocess.run([sys.executable, "-B", path, *arguments], cwd=folder,
+                                      text=True, capture_output=True,
+                                      env={**os.environ, "MPLBACKEND": "Agg"})
+                if "No module named 'matplotlib'" in done.stderr:
+                    self.skipTest("python3-matplotlib is not installed")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                pattern, least, most = RESULTS[path.name]
+                number = re.search(pattern, done.stdout)
+                self.assertTrue(number, done.stdout)
+                self.assertGreater(float(number[1]), least)
+                self.assertLess(float(number[1]), most)
+
+
+if __name__ == "__main__":
+    unittest.main()
