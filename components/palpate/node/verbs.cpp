@@ -35,16 +35,12 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
-      DemoVerb(),     LaunchVerb(),  SolveVerb(),    SimulateVerb(), CalibrateVerb(),
-      EstimateVerb(), CompareVerb(), DiagnoseVerb(), ImportVerb(),   CaptureVerb(),
-      WatchVerb(),    HealthVerb(),  DoctorVerb(),   TopicVerb(),    NodeVerb(),
-      ParamVerb(),    FailVerb(),    RecordVerb(),   PlayVerb(),     ViewVerb(),
-      RepairVerb(),   ExportVerb(),  InfoVerb(),     SecurityVerb(), ReferenceVerb(),
-      DemoVerb(),     LaunchVerb(),   SolveVerb(),    SimulateVerb(), CalibrateVerb(),
-      EstimateVerb(), DiagnoseVerb(), ImportVerb(),   CaptureVerb(),  WatchVerb(),
-      HealthVerb(),   DoctorVerb(),   TopicVerb(),    NodeVerb(),     ParamVerb(),
-      FailVerb(),     RecordVerb(),   PlayVerb(),     ViewVerb(),     RepairVerb(),
-      ExportVerb(),   InfoVerb(),     NewRobotVerb(), SecurityVerb(), ReferenceVerb(),
+      DemoVerb(),      LaunchVerb(),  SolveVerb(),    SimulateVerb(), CalibrateVerb(),
+      EstimateVerb(),  CompareVerb(), DiagnoseVerb(), ImportVerb(),   CaptureVerb(),
+      WatchVerb(),     HealthVerb(),  DoctorVerb(),   TopicVerb(),    NodeVerb(),
+      ParamVerb(),     FailVerb(),    RecordVerb(),   PlayVerb(),     ViewVerb(),
+      RepairVerb(),    ExportVerb(),  InfoVerb(),     NewRobotVerb(), SecurityVerb(),
+      ReferenceVerb(),
   };
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
