@@ -26,7 +26,7 @@ namespace {
 using force_estimation::ContactForce;
 using force_estimation::ForceEstimate;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotInFile = std::numeric_limits<double>::quiet_NaN();
 
 ContactForce Contact(const std::string& name, const Eigen::Vector3d& position_m,
                      const Eigen::Vector3d& force_N) {
@@ -35,8 +35,8 @@ ContactForce Contact(const std::string& name, const Eigen::Vector3d& position_m,
   contact.name = name;
   contact.position_m = position_m;
   contact.force_N = force_N;
-  contact.covariance_N2.setConstant(kUnknown);
-  contact.ci95_N = contact.location_ci95_m = kUnknown;
+  contact.covariance_N2.setConstant(kNotInFile);
+  contact.ci95_N = contact.location_ci95_m = kNotInFile;
   return contact;
 }
 
@@ -56,12 +56,12 @@ StatusCode CodeOf(const experiment::TabledForce& row) {
 
 /// Without an interval it follows from the covariance.
 ContactForce ContactOf(const experiment::TabledForce& row) {
-  const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(kUnknown);
+  const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(kNotInFile);
   ContactForce contact =
       Contact(row.contact, row.position_m.value_or(unknown), row.force_N.value_or(unknown));
   const StatusCode code = CodeOf(row);
   contact.status = Status(row.force_N ? code : StatusCode::kUnobservable, {});
-  contact.location_ci95_m = row.location_ci95_m.value_or(kUnknown);
+  contact.location_ci95_m = row.location_ci95_m.value_or(kNotInFile);
   if (row.covariance_N2) contact.covariance_N2 = *row.covariance_N2;
   if (row.ci95_N) {
     contact.ci95_N = *row.ci95_N;
