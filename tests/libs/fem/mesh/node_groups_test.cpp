@@ -61,7 +61,7 @@ $Elements
 $EndElements
 )";
 
-constexpr const char* kAbaqus = R"(*NODE, NSET=ALL
+constexpr const char* kAbaqusWithPoints = R"(*NODE, NSET=ALL
 1, 0, 0, 0
 2, 1, 0, 0
 3, 0, 1, 0
@@ -99,7 +99,7 @@ TEST(NodeGroups, OfGmshAreItsPhysicalPointsCurvesAndSurfaces) {
 }
 
 TEST(NodeGroups, OfAbaqusAreItsNodeSets) {
-  const auto groups = GroupsOf("tet.inp", kAbaqus);
+  const auto groups = GroupsOf("tet.inp", kAbaqusWithPoints);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].name, "Fixed");
   EXPECT_THAT(groups[0].elements,
