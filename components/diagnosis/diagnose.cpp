@@ -17,7 +17,6 @@
 #include "components/diagnosis/explain/verdict.hpp"
 #include "components/diagnosis/faults/catalogue.hpp"
 #include "components/diagnosis/forward/mesh_error.hpp"
-#include "components/diagnosis/forward/relative_mesh_error.hpp"
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/joined_diagnosis.hpp"
 #include "components/diagnosis/prepare/data_checks.hpp"
@@ -201,9 +200,7 @@ Status DiagnosisRun::BuildHypotheses() {
       .as_built = &simulation,
       .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, simulation, threads)};
   hypotheses_.emplace(MakeFaultModels(inputs, settings_.excluded), FaultTolerances(experiment_));
-  NoiseModel noise = settings_.noise;
-  noise.relative_error = RelativeMeshError(body_).value_or(noise.relative_error);
-  fitter_.emplace(observed_, body_, *hypotheses_, noise, threads, limit_);
+  fitter_.emplace(observed_, body_, *hypotheses_, settings_.noise, threads, limit_);
   as_built_ = fitter_->AsBuilt(&simulation);
   linearised_s_ = SecondsSince(begin);
   return CheckAgainstNominal(observed_, as_built_.simulation);

@@ -75,14 +75,12 @@ std::vector<std::string> CatalogueIds() {
   return ids;
 }
 
-std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& given,
+std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& inputs,
                                            const std::vector<std::string>& without) {
   const std::vector<std::string> ids = CatalogueIds();
   for (const std::string& id : without) {
     if (!IndexOf(id, ids)) throw InputError(Unknown("cause", id, ids));
   }
-  CatalogueInputs inputs = given;
-  if (inputs.anchor_errors.empty()) inputs.anchor_errors = FindAnchorErrors(inputs.body);
   std::vector<FaultModelPtr> faults;
   for (const Entry& entry : kCatalogue) {
     if (!IndexOf(entry.id, without)) entry.make(inputs, &faults);

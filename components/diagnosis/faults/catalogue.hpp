@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/forward/anchor_error.hpp"
 #include "components/diagnosis/forward/fault_model.hpp"
 
 namespace palpate::diagnosis {
@@ -21,7 +20,6 @@ struct CatalogueInputs {
   /// How the robot moves as its file has it; none: no faults that ask for it.
   const Simulation* as_built = nullptr;
   std::shared_ptr<const MeshError> mesh_error = nullptr;  ///< where it is known
-  std::vector<AnchorError> anchor_errors = {};            ///< [cables]; empty: they are computed
 };
 
 /// Every fault of the catalogue at every place of this robot where it can show in these data, and

