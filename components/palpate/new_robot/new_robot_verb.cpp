@@ -20,7 +20,7 @@
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/index.hpp"
-#include "libs/core/names.hpp"
+#include "libs/core/text.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
 
