@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Forces on a beam from the markers of a recording, with the calibration of palpate calibrate.
 
-usage: estimate_recording.py CALIBRATION.yaml [EXPERIMENT_FOLDER [RECORDING]]
+usage: estimate_recording.py CALIBRATION.yaml [EXPERIMENT_FOLDER RECORDING [CONTACT ...]]
 """
 
 import pathlib
@@ -22,7 +22,9 @@ recording = experiment.recording(name)
 robot = palpate.Robot(experiment.robot, calibration)
 print(f"{robot.name}: E {robot.youngs_modulus_Pa():.4g} Pa, {len(recording.marker_t_s)} frames")
 
-estimator = palpate.MarkerEstimator(robot, recording)
+# Three markers do not tell where the weight hangs, and in which direction it pulls.
+contacts = sys.argv[4:] or ["weight: 0, 0.015, 0.03, 0.005 along 0, 0, -1"]
+estimator = palpate.MarkerEstimator(robot, recording, contacts=contacts)
 begin_s, end_s = recording.steady_window_s
 sizes_N = []
 for frame in palpate.marker_frames(recording, robot):
