@@ -158,7 +158,7 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
                              .depth_cameras = DepthCamerasOf(experiment),
                              .surface_source = images ? &*images : nullptr},
                             report);
-    if (!diagnosis.result.interrupted) {
+    if (!diagnosis.result.interrupted && !diagnosis.result.causes.empty()) {
       report(steps - 1, steps, "estimating the forces at known loads");
       diagnosis.result.force_error = MeasureForceError(robot, diagnosis, experiment, [&] {
         const double longest_s = 60.0 * options.most_minutes;

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "components/force_estimation/shape/known_contacts.hpp"
+#include "components/palpate/compare/force_comparison.hpp"
 #include "components/palpate/estimate/estimate_settings.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/marker_tare.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {
@@ -34,23 +36,30 @@ bool HasKnownForces(const experiment::Recording& recording) {
                      [](const experiment::KnownLoad& load) { return !load.force_N.isZero(0.0); });
 }
 
-/// [known loads] of one frame, N; nothing where the frame cannot be used. A frame that is
-/// explained without a force says that there is none.
+/// Zero where nothing acts; nothing where it is not observable.
+std::optional<Eigen::Vector3d> ForceAt_N(const std::string& contact,
+                                         const force_estimation::ForceEstimate& estimate) {
+  if (estimate.status.code() == StatusCode::kNoContact) return Eigen::Vector3d::Zero();
+  for (const force_estimation::ContactForce& one : estimate.contacts) {
+    if (one.name != contact) continue;
+    if (one.status.code() == StatusCode::kNoContact) return Eigen::Vector3d::Zero();
+    if (HasForce(one)) return one.force_N;
+  }
+  return std::nullopt;
+}
+
+/// [known loads] of one frame, N; nothing where the frame, or a force of it, cannot be used.
 std::optional<Eigen::VectorXd> ErrorsOf(const force_estimation::ForceEstimate& estimate,
                                         const experiment::Recording& recording) {
-  const bool none = estimate.status.code() == StatusCode::kNoContact;
-  if (!force_estimation::IsUsable(estimate.status)) return std::nullopt;
+  if (!HasResult(estimate.status)) return std::nullopt;
   const auto sites = force_estimation::SitesOfLoads(recording.loads, estimate.t_s);
   Eigen::VectorXd errors_N(std::ssize(sites));
   Eigen::Index known = 0;
   for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, estimate.t_s)) {
     if (load.force_N.isZero(0.0)) continue;
-    const std::string& name = sites[static_cast<std::size_t>(known)].name;
-    const auto found = std::find_if(estimate.contacts.begin(), estimate.contacts.end(),
-                                    [&](const auto& contact) { return contact.name == name; });
-    if (!none && found == estimate.contacts.end()) return std::nullopt;
-    const Eigen::Vector3d force_N = none ? Eigen::Vector3d::Zero() : found->force_N;
-    errors_N[known++] = (force_N - load.force_N).dot(load.force_N.normalized());
+    const auto force_N = ForceAt_N(sites[At(known)].name, estimate);
+    if (!force_N) return std::nullopt;
+    errors_N[known++] = (*force_N - load.force_N).dot(load.force_N.normalized());
   }
   return errors_N;
 }
