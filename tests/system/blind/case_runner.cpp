@@ -12,6 +12,7 @@
 #include "tests/system/blind/corruption.hpp"
 #include "tests/system/blind/kept_record.hpp"
 #include "tests/system/blind/open_answer.hpp"
+#include "tests/system/blind/rod_meshes.hpp"
 #include "tests/system/process.hpp"
 
 namespace palpate::blind {
@@ -117,11 +118,16 @@ void CaseRunner::RunAnew(const BlindCase& drawn, CaseRecord* record) const {
   record->truth = OpenAnswer(made, sealed / kAnswer);
 }
 
+fs::path CaseRunner::DiagnosedRobotFile(const BlindCase& drawn, const fs::path& folder) const {
+  if (drawn.corruption == Corruption::kOtherRobot)
+    return OtherRobotFile(drawn.seed, robot_, folder);
+  if (settings_.robot_file.stem() == "rod") return WriteDiagnosedRod(drawn.seed, robot_, folder);
+  return settings_.robot_file;
+}
+
 void CaseRunner::Diagnose(const BlindCase& drawn, const fs::path& data, const fs::path& out,
                           CaseRecord* record) const {
-  const fs::path robot = drawn.corruption == Corruption::kOtherRobot
-                             ? OtherRobotFile(drawn.seed, robot_, data.parent_path())
-                             : settings_.robot_file;
+  const fs::path robot = DiagnosedRobotFile(drawn, data.parent_path());
   std::vector<std::string> arguments = {"diagnose",  robot.string(),
                                         "--data",    data.string(),
                                         "--out",     out.string(),

@@ -45,6 +45,8 @@ class CaseRunner {
   std::string HowAsked() const;
   bool TakeKept(const BlindCase& drawn, CaseRecord* record) const;
   void RunAnew(const BlindCase& drawn, CaseRecord* record) const;
+  std::filesystem::path DiagnosedRobotFile(const BlindCase& drawn,
+                                           const std::filesystem::path& folder) const;
   void Diagnose(const BlindCase& drawn, const std::filesystem::path& data,
                 const std::filesystem::path& out, CaseRecord* record) const;
 

@@ -20,8 +20,7 @@ namespace palpate::blind {
 std::string WithRecordings(const std::string& scenario, const std::set<std::string>& names);
 
 /// Makes experiments of config/scenarios/diagnose.yaml with `palpate simulate`, each a process; of
-/// the robot file rod.yaml, those of diagnose_rod.yaml. Rods of even seeds have a coarser mesh than
-/// that file, and of odd seeds a finer one.
+/// the robot file rod.yaml, those of diagnose_rod.yaml on the body of MeshesOfRod.
 /// Where pictures are asked for, a small depth camera takes them in the place of markers.
 class Generator {
  public:

@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <set>
+#include <utility>
 
 #include "libs/core/error.hpp"
 #include "tests/system/blind/blind_set.hpp"
+#include "tests/system/blind/rod_meshes.hpp"
 
 /// Which cases a set has.
 namespace palpate::blind {
@@ -42,6 +45,16 @@ TEST(BlindSet, RefusesAKindThatThereIsNot) {
   EXPECT_THAT([] { BlindSet::FromEnvironment(1); },
               testing::ThrowsMessage<InputError>(testing::HasSubstr(
                   "PALPATE_BLIND_KIND is 'two', none of: healthy, one cause, two causes")));
+}
+
+TEST(BlindSet, DiagnosesRodsOnCoarserFinerAndOtherElements) {
+  std::set<std::pair<bool, fem::ElementType>> kinds;
+  for (const std::uint64_t seed : BlindSet{.cases = 12, .kind = CaseKind::kHealthy}.Seeds()) {
+    const RodMeshes meshes = MeshesOfRod(seed);
+    EXPECT_NE(meshes.body, meshes.diagnosed) << seed;
+    kinds.insert({meshes.body == "rod.msh", meshes.element});
+  }
+  EXPECT_EQ(kinds.size(), 3u);
 }
 
 }  // namespace
