@@ -98,7 +98,7 @@ std::string Process::Output() const {
 
 std::optional<int> RunProgram(const std::string& name, const std::vector<std::string>& arguments,
                               const std::filesystem::path& log) {
-  return Process(name, arguments, log).Wait(std::chrono::minutes(2));
+  return Process(name, arguments, log).Wait(std::chrono::minutes(10));
 }
 
 }  // namespace palpate::system_test

@@ -51,7 +51,7 @@ class Process {
   std::filesystem::path log_;
 };
 
-/// Runs a program to its end, at most two minutes; its exit code as Wait() has it.
+/// Runs a program to its end, at most ten minutes; its exit code as Wait() has it.
 std::optional<int> RunProgram(const std::string& name, const std::vector<std::string>& arguments,
                               const std::filesystem::path& log);
 

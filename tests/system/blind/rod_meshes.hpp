@@ -12,15 +12,13 @@
 namespace palpate::blind {
 
 /// No real robot equals the mesh that it is diagnosed on: a body that is made on one mesh is
-/// diagnosed on another.
+/// diagnosed on another. File names; elements of ten nodes.
 struct RodMeshes {
-  std::string body;       ///< file name of the mesh of the virtual robot, in elements of ten nodes
+  std::string body;       ///< of the virtual robot
   std::string diagnosed;  ///< of the robot file
-  fem::ElementType element = fem::ElementType::kTet10;  ///< of the robot file
 };
 
-/// By the rest of `seed` by 3: a body on a coarser mesh than the robot file's, on a finer one, and
-/// a robot file in elements of four nodes.
+/// A coarser body than the robot file's, or a finer one, in turn over the healthy seeds.
 RodMeshes MeshesOfRod(std::uint64_t seed);
 
 /// The robot file that a rod of `seed` is diagnosed with, written to `folder`. `rod`: as shipped.
