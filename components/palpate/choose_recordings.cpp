@@ -4,12 +4,9 @@
 #include "components/palpate/choose_recordings.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
 #include "libs/core/index.hpp"
-#include "libs/core/sha256.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/surface_patch.hpp"
 
@@ -78,19 +75,6 @@ std::vector<const Recording*> RecordingsWithKnownLoads(const experiment::Experim
                      "may hold unknown contacts); name one with --recording");
   }
   return chosen;
-}
-
-std::string HashRecordings(const std::vector<const Recording*>& recordings) {
-  std::string digests;
-  for (const Recording* recording : recordings) {
-    for (const char* name : {"recording.yaml", "actuation.csv", "markers.csv", "loads.csv"}) {
-      const std::filesystem::path file = recording->folder / name;
-      if (std::filesystem::exists(file)) {
-        digests += std::string(name) + " " + Sha256Hex(ReadFile(file)) + "\n";
-      }
-    }
-  }
-  return "sha256-" + Sha256Hex(digests);
 }
 
 }  // namespace palpate::command

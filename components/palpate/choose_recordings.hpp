@@ -32,7 +32,4 @@ void RequireLoads(const experiment::Recording& recording);
 /// Refuses the first known load that lies off the body (experiment::RequireOnBody).
 void RequireLoadsOnBody(const experiment::Recording& recording, const fem::PointLocator& places);
 
-/// "sha256-<64 hex digits>" over the settings and tables of these recordings.
-std::string HashRecordings(const std::vector<const experiment::Recording*>& recordings);
-
 }  // namespace palpate::command

@@ -37,6 +37,7 @@
 #include "libs/core/seconds.hpp"
 #include "libs/core/utc_text.hpp"
 #include "libs/experiment/folders.hpp"
+#include "libs/experiment/recording_hash.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 
@@ -92,7 +93,7 @@ std::string HashOf(const experiment::Experiment& experiment) {
   for (const experiment::Recording& recording : experiment.recordings) {
     recordings.push_back(&recording);
   }
-  return HashRecordings(recordings);
+  return experiment::HashRecordings(recordings);
 }
 
 std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experiment& experiment) {

@@ -65,6 +65,11 @@ py::array CopyOfVector(const Eigen::VectorXd& values) {
   return py::array_t<double>(values.size(), values.data());
 }
 
+py::array CopyOfMatrix(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd by_rows = matrix.transpose();
+  return py::array_t<double>({matrix.rows(), matrix.cols()}, by_rows.data());
+}
+
 py::array CopyOfPoints(const Eigen::Matrix3Xd& points) {
   return py::array_t<double>({points.cols(), Eigen::Index{3}}, points.data());
 }

@@ -25,8 +25,9 @@ pybind11::array ViewOfPoints(const Eigen::VectorXd& coordinates, pybind11::handl
 pybind11::array ViewOfColumns(const Eigen::MatrixXd& matrix, pybind11::handle owner);
 pybind11::array ViewOfColumns(const Eigen::Matrix3Xd& matrix, pybind11::handle owner);
 pybind11::array ViewOfColumns(const Eigen::MatrixXi& matrix, pybind11::handle owner);
-/// A copy that Python may change.
+/// Copies that Python may change.
 pybind11::array CopyOfVector(const Eigen::VectorXd& values);
+pybind11::array CopyOfMatrix(const Eigen::MatrixXd& matrix);
 /// [n x 3] of points [3 x n].
 pybind11::array CopyOfPoints(const Eigen::Matrix3Xd& points);
 

@@ -12,5 +12,6 @@ void BindCompliance(pybind11::module_& module);
 void BindSensitivity(pybind11::module_& module);
 void BindExperiment(pybind11::module_& module);
 void BindEstimation(pybind11::module_& module);
+void BindCalibration(pybind11::module_& module);
 
 }  // namespace palpate::python

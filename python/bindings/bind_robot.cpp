@@ -91,7 +91,7 @@ double YoungsModulus(Robot& robot, const std::string& part) {
 }
 
 void SetYoungsModulus(Robot& robot, const std::string& part, double youngs_modulus_Pa) {
-  const int material = IndexOfWord(part, robot.part_names(), "part");
+  const int material = robot.MaterialWithElements(part);
   if (!(youngs_modulus_Pa > 0.0) || std::isinf(youngs_modulus_Pa)) {
     throw InputError("youngs_modulus_Pa is " + std::to_string(youngs_modulus_Pa) +
                      ": more than 0 is allowed");
@@ -107,7 +107,7 @@ double PoissonsRatio(Robot& robot, const std::string& part) {
 }
 
 void SetPoissonsRatio(Robot& robot, const std::string& part, double poissons_ratio) {
-  const int material = IndexOfWord(part, robot.part_names(), "part");
+  const int material = robot.MaterialWithElements(part);
   if (!(poissons_ratio > -1.0 && poissons_ratio <= robot::kLargestPoissonsRatio)) {
     throw InputError("poissons_ratio is " + std::to_string(poissons_ratio) +
                      ": more than -1, at most " + FormatNumber(robot::kLargestPoissonsRatio) +

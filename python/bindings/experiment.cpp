@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
@@ -36,6 +37,11 @@ struct OpenExperiment {
 
 OpenExperiment Open(const std::string& folder) {
   const py::gil_scoped_release released;
+  if (std::filesystem::is_regular_file(folder)) {
+    throw InputError(folder +
+                     ": is a file and no experiment folder; of recorded messages, palpate export "
+                     "FILE --experiment FOLDER makes one");
+  }
   OpenExperiment open;
   open.data = std::make_shared<const experiment::Experiment>(
       experiment::ReadExperiment(folder, app::LoadYaml));
@@ -106,9 +112,9 @@ void BindLoads(py::module_& module) {
 }
 
 void BindRecording(py::module_& module) {
-  py::class_<Recording, RecordingPtr>(
-      module, "Recording", "A recording; NaN where a marker was not seen or a field is empty.")
-      .def_property_readonly("name", [](const Recording& one) { return one.data().name; })
+  py::class_<Recording, RecordingPtr> recording(
+      module, "Recording", "A recording; NaN where a marker was not seen or a field is empty.");
+  recording.def_property_readonly("name", [](const Recording& one) { return one.data().name; })
       .def_property_readonly("folder",
                              [](const Recording& one) { return one.data().folder.string(); })
       .def_property_readonly("kind", [](const Recording& one) { return ToString(one.data().kind); })
@@ -144,6 +150,7 @@ void BindRecording(py::module_& module) {
                              [](const Recording& one) { return Files(one.data().color_images); })
       .def_property_readonly("clouds",
                              [](const Recording& one) { return Files(one.data().clouds); });
+  BindImages(module, recording);
 }
 
 }  // namespace

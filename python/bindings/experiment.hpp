@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <pybind11/pybind11.h>
+
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
@@ -33,5 +35,9 @@ class Recording {
   Eigen::VectorXd marker_t_s_, actuation_t_s_;
   Eigen::MatrixXd markers_m_, actuation_;
 };
+
+/// Images and clouds of a recording, and its camera.
+void BindImages(pybind11::module_& module,
+                pybind11::class_<Recording, std::shared_ptr<Recording>>& recording);
 
 }  // namespace palpate::python

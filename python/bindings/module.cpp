@@ -22,4 +22,5 @@ PYBIND11_MODULE(_engine, module) {
   palpate::python::BindSensitivity(module);
   palpate::python::BindExperiment(module);
   palpate::python::BindEstimation(module);
+  palpate::python::BindCalibration(module);
 }

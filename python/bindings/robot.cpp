@@ -3,8 +3,10 @@
 
 #include "python/bindings/robot.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "components/calibration/joint/found_calibration.hpp"
 #include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -38,9 +40,17 @@ Robot::Robot(const std::string& robot, const std::string& calibration,
   if (!calibration.empty()) robot::ApplyCalibration(calibration_, model_.get());
   cable_names_ = model_->CableNames();
   marker_names_ = model_->MarkerNames();
-  part_names_ = {"body"};
-  const auto& regions = model_->body().region_names;
-  part_names_.insert(part_names_.end(), regions.begin(), regions.end());
+  part_names_ = calibration::PartNames(model_->body());
+}
+
+int Robot::MaterialWithElements(const std::string& part) const {
+  const int material = IndexOfWord(part, part_names_, "part");
+  const std::vector<std::string> parts = calibration::PartsWithElements(body());
+  if (std::find(parts.begin(), parts.end(), part) == parts.end()) {
+    throw InputError("part '" + part + "' of robot " + body().name +
+                     " has no element; give one of " + Listed(parts));
+  }
+  return material;
 }
 
 std::unique_ptr<robot::RobotModel> Robot::CopyOf(const robot::RobotModel& model,

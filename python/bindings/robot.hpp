@@ -40,6 +40,9 @@ class Robot {
   const std::vector<std::string>& marker_names() const { return marker_names_; }
   /// "body", then the regions: the order of RobotBody::materials.
   const std::vector<std::string>& part_names() const { return part_names_; }
+  /// Index of a part's material. Throws InputError for one that no element has: a change of it
+  /// would do nothing.
+  int MaterialWithElements(const std::string& part) const;
 
   /// Calls work(model) without the GIL and alone.
   template <typename Work>

@@ -7,10 +7,14 @@ object hands out are read-only views of its memory.
 """
 
 from palpate._engine import (
+    Calibration,
+    Camera,
+    CameraModel,
     Compliance,
     ContactForce,
     Equilibrium,
     Experiment,
+    FittedValue,
     ForceEstimate,
     InputError,
     KnownLoad,
@@ -25,16 +29,21 @@ from palpate._engine import (
     Sensitivity,
     SolveError,
     __version__,
+    calibrate,
     compliance,
     marker_frames,
     sensitivity,
 )
 
 __all__ = [
+    "Calibration",
+    "Camera",
+    "CameraModel",
     "Compliance",
     "ContactForce",
     "Equilibrium",
     "Experiment",
+    "FittedValue",
     "ForceEstimate",
     "InputError",
     "KnownLoad",
@@ -49,6 +58,7 @@ __all__ = [
     "Sensitivity",
     "SolveError",
     "__version__",
+    "calibrate",
     "compliance",
     "marker_frames",
     "sensitivity",

@@ -114,6 +114,7 @@ class Robot:
     def marker(self, name: str) -> Patch: ...
     def youngs_modulus_Pa(self, part: str = "body") -> float: ...
     # Each part has a modulus of its own, also where the robot file gives regions that of the body.
+    # One without elements is refused: that of the body where regions have all of them.
     def set_youngs_modulus(self, part: str, youngs_modulus_Pa: float) -> None: ...
     def poissons_ratio(self, part: str = "body") -> float: ...
     def set_poissons_ratio(self, part: str, poissons_ratio: float) -> None: ...
@@ -205,6 +206,34 @@ class KnownLoad:
     @property
     def patch_radius_m(self) -> float: ...
 
+class CameraModel:
+    """A pinhole camera with OpenCV's rational lens distortion."""
+
+    @property
+    def width_px(self) -> int: ...
+    @property
+    def height_px(self) -> int: ...
+    @property
+    def K(self) -> Floats: ...  # [3, 3] px; pixel (0, 0) has its centre at 0, 0
+    @property
+    def distortion(self) -> Floats: ...  # [5] or [8], in OpenCV's order
+
+class Camera:
+    """A depth camera and the colour camera beside it."""
+
+    @property
+    def depth(self) -> CameraModel: ...
+    @property
+    def color(self) -> CameraModel | None: ...
+    @property
+    def depth_unit_m(self) -> float: ...  # of one step
+    @property
+    def invalid_value(self) -> int: ...  # step of a pixel without depth
+    @property
+    def color_registered(self) -> bool: ...  # its pixels are those of the depth image
+    @property
+    def T_depth_color(self) -> Floats: ...  # [4, 4]
+
 class Recording:
     """A recording; NaN where a marker was not seen or a field is empty."""
 
@@ -240,6 +269,13 @@ class Recording:
     def color_images(self) -> list[tuple[float, str]]: ...
     @property
     def clouds(self) -> list[tuple[float, str]]: ...
+    @property
+    def camera(self) -> Camera: ...  # camera.yaml
+    # frame: number in depth_images, color_images or clouds; -1 is the last
+    def depth_m(self, frame: int) -> NDArray[np.float32]: ...  # [height, width]; NaN: no depth
+    def depth_steps(self, frame: int) -> NDArray[np.uint16]: ...  # as in the file
+    def color(self, frame: int) -> NDArray[np.uint8]: ...  # [height, width, 3] RGB
+    def cloud_m(self, frame: int) -> Floats: ...  # [points, 3] camera frame; NaN: nothing seen
 
 class Experiment:
     """A folder of measured data."""
@@ -343,3 +379,50 @@ class MarkerEstimator:
         cable_input: CableInput = "displacement",
     ) -> MarkerFrame: ...
     def update(self, frame: MarkerFrame) -> ForceEstimate: ...
+
+class FittedValue:
+    """An estimated parameter."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def value(self) -> float: ...
+    @property
+    def prior_mean(self) -> float: ...
+    @property
+    def standard_error(self) -> float: ...
+    @property
+    def determined(self) -> bool: ...
+    @property
+    def what_would_tell(self) -> str: ...
+
+class Calibration:
+    """Parameters estimated from markers."""
+
+    @property
+    def values(self) -> list[FittedValue]: ...
+    @property
+    def T_robot_camera(self) -> Floats | None: ...  # [4, 4]; None: not estimated
+    @property
+    def residual_rms_m(self) -> float: ...
+    @property
+    def chi_squared(self) -> float: ...
+    @property
+    def degrees_of_freedom(self) -> int: ...
+    @property
+    def iterations(self) -> int: ...
+    def write(self, file: str) -> None: ...  # for palpate --calibration and Robot
+
+def calibrate(
+    robot: Robot,
+    recordings: Sequence[Recording],
+    *,
+    parts: Sequence[str] = (),  # empty: the body, or all regions if they have all its elements
+    actuator_offsets: bool = True,
+    actuator_gains: bool = False,
+    marker_bias_m: float = 0.0,
+    cable_input: CableInput = "displacement",
+    threads: int = 2,
+) -> Calibration: ...

@@ -18,6 +18,7 @@ RESULTS = {
     "solve_and_plot.py": (r"tip moved by ([\d.]+) mm", 2.0, 20.0),
     "estimate_recording.py": (r"mean force ([\d.]+) N", 0.459, 0.561),
     "own_loop.py": (r"recovered ([\d.]+) of the force", 0.97, 1.03),
+    "own_hypothesis.py": (r"a rubber band at the tip: ([\d.]+) \+-", 3.8, 4.2),
 }
 
 
@@ -45,6 +46,24 @@ class Examples(unittest.TestCase):
                 self.assertTrue(number, done.stdout)
                 self.assertGreater(float(number[1]), least)
                 self.assertLess(float(number[1]), most)
+
+    def test_the_notebook_runs_and_finds_the_weight(self):
+        try:
+            import nbclient
+            import nbformat
+        except ImportError:
+            self.skipTest("python3-nbclient is not installed")
+        path = SOURCE / "python/examples/robot_to_forces.ipynb"
+        notebook = nbformat.read(path, as_version=4)
+        nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3",
+                                resources={"metadata": {"path": str(path.parent)}}).execute()
+        printed = "".join(output.get("text", "") for cell in notebook.cells
+                          for output in cell.get("outputs", []))
+        force_N = float(re.search(r"mean force ([\d.]+) N", printed)[1])
+        self.assertAlmostEqual(force_N, 0.510, delta=0.051)
+        figures = [output for cell in notebook.cells for output in cell.get("outputs", [])
+                   if "image/png" in output.get("data", {})]
+        self.assertEqual(len(figures), 2)
 
 
 if __name__ == "__main__":

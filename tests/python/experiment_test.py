@@ -53,6 +53,10 @@ class MeasuredBeam(unittest.TestCase):
         with self.assertRaisesRegex(palpate.InputError, "did you mean 'hung_weight'"):
             self.experiment.recording("hung_weigth")
 
+    def test_of_a_file_it_says_how_a_folder_is_made(self):
+        with self.assertRaisesRegex(palpate.InputError, "palpate export FILE --experiment FOLDER"):
+            palpate.Experiment(BEAM)
+
 
 class Tables(unittest.TestCase):
     def write(self, folder, actuation):

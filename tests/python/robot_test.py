@@ -80,6 +80,14 @@ class Refusals(unittest.TestCase):
             with self.assertRaisesRegex(palpate.InputError, "did you mean"):
                 call()
 
+    def test_a_part_without_elements_cannot_be_changed(self):
+        rod = palpate.Robot("rod")
+        for change in (lambda: rod.set_youngs_modulus("body", 1e5),
+                       lambda: rod.set_poissons_ratio("body", 0.4)):
+            with self.assertRaisesRegex(palpate.InputError,
+                                        "'body' of robot rod has no element; give one of root"):
+                change()
+
     def test_numbers_out_of_range_are_refused(self):
         robot = palpate.Robot(FOUR_LEG)
         for call in (

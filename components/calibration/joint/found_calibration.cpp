@@ -39,6 +39,18 @@ std::vector<std::string> PartNames(const robot::RobotBody& body) {
   return names;
 }
 
+std::vector<std::string> PartsWithElements(const robot::RobotBody& body) {
+  const std::vector<std::string> names = PartNames(body);
+  std::vector<std::string> parts;
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    const auto& of_cell = body.material_of_cell;
+    const bool any =
+        std::find(of_cell.begin(), of_cell.end(), static_cast<int>(m)) != of_cell.end();
+    if (any) parts.push_back(names[m]);
+  }
+  return parts;
+}
+
 namespace {
 
 void TakePose(const JointCalibration& fit, robot::CalibrationFile* file) {

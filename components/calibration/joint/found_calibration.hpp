@@ -26,6 +26,8 @@ std::vector<CorrelatedValues> FindCorrelated(const JointCalibration& fit, double
 
 /// Names of the materials (RobotBody::materials) in calibration files: "body", then the regions'.
 std::vector<std::string> PartNames(const robot::RobotBody& body);
+/// Those of them that an element has: not the body where regions have all of its elements.
+std::vector<std::string> PartsWithElements(const robot::RobotBody& body);
 
 /// Writes a successful joint calibration into `file`: pose, actuators, materials, gravity, size and
 /// cable routes that the data determine, the names of undetermined parameters, and the residual.

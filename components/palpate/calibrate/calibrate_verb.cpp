@@ -29,22 +29,9 @@ namespace palpate::command {
 
 namespace {
 
-/// Materials that have an element, by name.
-std::vector<std::string> PartsWithElements(const robot::RobotBody& body) {
-  const std::vector<std::string> names = calibration::PartNames(body);
-  std::vector<std::string> parts;
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    const auto& of_cell = body.material_of_cell;
-    const bool any =
-        std::find(of_cell.begin(), of_cell.end(), static_cast<int>(m)) != of_cell.end();
-    if (any) parts.push_back(names[m]);
-  }
-  return parts;
-}
-
 /// The body; where regions have all of its elements, these.
 std::vector<std::string> PartsOf(const CalibrateOptions& options, const robot::RobotBody& body) {
-  const std::vector<std::string> parts = PartsWithElements(body);
+  const std::vector<std::string> parts = calibration::PartsWithElements(body);
   const bool has_body = parts.front() == "body";
   if (options.parts.empty()) return has_body ? std::vector<std::string>{"body"} : parts;
   const auto& asked = options.parts;

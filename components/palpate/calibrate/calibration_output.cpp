@@ -11,6 +11,7 @@
 #include "components/palpate/choose_recordings.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/utc_text.hpp"
+#include "libs/experiment/recording_hash.hpp"
 #include "libs/geometry/pose_text.hpp"
 
 namespace palpate::command {
@@ -59,7 +60,7 @@ robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
   for (const experiment::Recording* recording : recordings) {
     file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
   }
-  file.data_hash = HashRecordings(recordings);
+  file.data_hash = experiment::HashRecordings(recordings);
   return file;
 }
 

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/calibration/joint/fit_check.hpp"
+#include "components/calibration/joint/found_calibration.hpp"
+#include "components/calibration/joint/joint_request.hpp"
+#include "components/calibration/joint/misfit_reasons.hpp"
+#include "components/calibration/joint/recording_frames.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/core/utc_text.hpp"
+#include "libs/experiment/recording_hash.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "python/bindings/arrays.hpp"
+#include "python/bindings/bind.hpp"
+#include "python/bindings/errors.hpp"
+#include "python/bindings/experiment.hpp"
+#include "python/bindings/interrupts.hpp"
+#include "python/bindings/robot.hpp"
+
+namespace py = pybind11;
+
+namespace palpate::python {
+
+namespace {
+
+using calibration::CalibrationFrame;
+using calibration::FittedValue;
+using calibration::JointCalibration;
+using calibration::JointRequest;
+using RobotPtr = std::shared_ptr<Robot>;
+using RecordingPtr = std::shared_ptr<Recording>;
+
+/// A calibration, and the file that it makes.
+struct Calibration {
+  JointCalibration fit;
+  robot::CalibrationFile file;
+};
+
+/// Which parameters are estimated; the priors are those of `palpate calibrate`.
+struct Wanted {
+  std::vector<std::string> parts;  ///< empty: the body, or all regions where they have its elements
+  bool actuator_offsets = true;
+  bool actuator_gains = false;
+  double marker_bias_m = 0.0;
+  robot::CableInput preferred = robot::CableInput::kDisplacement;
+  int threads = 2;
+};
+
+/// The data of all recordings, which must be of one experiment.
+std::vector<const experiment::Recording*> DataOf(const std::vector<RecordingPtr>& recordings) {
+  if (recordings.empty()) throw InputError("no recording is given");
+  std::vector<const experiment::Recording*> data;
+  for (const RecordingPtr& recording : recordings) {
+    if (&recording->experiment() != &recordings.front()->experiment()) {
+      throw InputError("the recordings are of several experiments");
+    }
+    data.push_back(&recording->data());
+  }
+  return data;
+}
+
+bool IsOfTheCamera(const experiment::Experiment& experiment,
+                   const experiment::Recording& recording) {
+  return experiment::FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera &&
+         !recording.T_robot_camera;
+}
+
+/// With marker offsets where displacements count from a reference window, which tells them.
+JointRequest RequestFor(const Robot& robot, const Wanted& wanted,
+                        const calibration::RecordedFrames& recorded) {
+  JointRequest request;
+  request.pose = recorded.has_camera();
+  request.own_poses = recorded.own_poses();
+  request.actuator_offsets = wanted.actuator_offsets;
+  request.actuator_gains = wanted.actuator_gains;
+  request.threads = wanted.threads;
+  const std::vector<std::string> all = calibration::PartsWithElements(robot.body());
+  const bool has_body = all.front() == "body";
+  const std::vector<std::string> parts = !wanted.parts.empty() ? wanted.parts
+                                         : has_body            ? std::vector<std::string>{"body"}
+                                                               : all;
+  for (const std::string& part : parts) {
+    request.moduli.push_back(robot.MaterialWithElements(part));
+  }
+  if (recorded.has_reference()) {
+    constexpr double kShareOfExtent = 0.02;
+    const Eigen::Matrix3Xd& nodes_m = robot.body().mesh.nodes_m;
+    request.marker_offset_sigma_m =
+        kShareOfExtent * (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).maxCoeff();
+  }
+  return request;
+}
+
+/// Runs work(stop token) on a thread of its own, and ends it for Ctrl-C. Without the GIL.
+template <typename Work>
+auto RunInterruptibly(const Work& work, Interrupts* interrupts) {
+  std::stop_source stop;
+  auto running = std::async(std::launch::async, [&] { return work(stop.get_token()); });
+  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+    if (interrupts->Requested()) stop.request_stop();
+  }
+  return running.get();
+}
+
+void RequirePossible(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
+                     const JointRequest& request, const JointCalibration& fit) {
+  std::string what;
+  if (!fit.status.ok()) {
+    what = "the fit failed (" + std::string(ToString(fit.status.code())) +
+           "): " + fit.status.message();
+  } else {
+    const calibration::FitCheck check = calibration::CheckFit(model, frames, fit);
+    if (check.possible) return;
+    what = "the fit cannot be: the markers are " + FormatNumber(1e3 * check.residual_rms_m) +
+           " mm from the model (RMS), where noise and tolerances explain " +
+           FormatNumber(1e3 * check.expected_rms_m) + " mm";
+  }
+  const std::string reasons = calibration::FindMisfitReasons(model, frames, request).Text();
+  throw RunError(what + ". Likely reasons, the best first:\n" + reasons);
+}
+
+robot::CalibrationFile FileOf(const JointCalibration& fit, const robot::RobotModel& model,
+                              const std::vector<const experiment::Recording*>& recordings,
+                              const std::filesystem::path& data) {
+  robot::CalibrationFile file = robot::DescribeForCalibration(model);
+  file.date_utc = UtcText(std::time(nullptr));
+  file.data = data.filename().string();
+  for (const experiment::Recording* recording : recordings) {
+    file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
+  }
+  file.data_hash = experiment::HashRecordings(recordings);
+  calibration::TakeFit(fit, model, &file);
+  std::erase_if(file.undetermined, [](const robot::Undetermined& number) {
+    return number.name.starts_with("marker_offset:");
+  });
+  return file;
+}
+
+std::shared_ptr<Calibration> Calibrate(const RobotPtr& robot,
+                                       const std::vector<RecordingPtr>& recordings,
+                                       const Wanted& wanted) {
+  const auto data = DataOf(recordings);
+  const experiment::Experiment& experiment = recordings.front()->experiment();
+  auto model = robot->Use(
+      [&](const robot::RobotModel& as_it_is) { return Robot::CopyOf(as_it_is, robot->solver()); });
+  calibration::RecordedFrames recorded(experiment, *model, wanted.preferred, wanted.marker_bias_m);
+  for (const experiment::Recording* recording : data) {
+    recorded.Add(*recording, IsOfTheCamera(experiment, *recording));
+  }
+  JointRequest request = RequestFor(*robot, wanted, recorded);
+  const std::vector<CalibrationFrame> frames = recorded.frames();
+  auto found = std::make_shared<Calibration>();
+  Interrupts interrupts;
+  {
+    const py::gil_scoped_release released;
+    found->fit = RunInterruptibly(
+        [&](const std::stop_token& stop) {
+          request.stop = stop;
+          return calibration::CalibrateFrames(*model, frames, nullptr, request);
+        },
+        &interrupts);
+  }
+  interrupts.Raise();
+  const py::gil_scoped_release released;
+  request.stop = {};
+  RequirePossible(*model, frames, request, found->fit);
+  found->file = FileOf(found->fit, *model, data, experiment.folder);
+  return found;
+}
+
+void BindFittedValue(py::module_& module) {
+  py::class_<FittedValue>(module, "FittedValue", "An estimated parameter.")
+      .def_readonly("name", &FittedValue::name)
+      .def_readonly("unit", &FittedValue::unit)
+      .def_readonly("value", &FittedValue::value)
+      .def_readonly("prior_mean", &FittedValue::prior_mean)
+      .def_readonly("standard_error", &FittedValue::standard_error)
+      .def_readonly("determined", &FittedValue::determined)
+      .def_readonly("what_would_tell", &FittedValue::what_would_tell);
+}
+
+/// [4 x 4], or None where no camera pose was estimated.
+py::object PoseOf(const Calibration& found) {
+  if (!found.file.pose) return py::none();
+  return CopyOfMatrix(found.file.pose->T_robot_camera.matrix());
+}
+
+void BindResult(py::module_& module) {
+  py::class_<Calibration, std::shared_ptr<Calibration>>(module, "Calibration",
+                                                        "Parameters estimated from markers.")
+      .def_property_readonly("values", [](const Calibration& found) { return found.fit.values; })
+      .def_property_readonly("T_robot_camera", &PoseOf)
+      .def_property_readonly("residual_rms_m",
+                             [](const Calibration& found) { return found.fit.residual_rms_m; })
+      .def_property_readonly("chi_squared",
+                             [](const Calibration& found) { return found.fit.chi_squared; })
+      .def_property_readonly("degrees_of_freedom",
+                             [](const Calibration& found) { return found.fit.degrees_of_freedom; })
+      .def_property_readonly("iterations",
+                             [](const Calibration& found) { return found.fit.iterations; })
+      .def(
+          "write",
+          [](const Calibration& found, const std::string& file) {
+            robot::WriteCalibrationFile(found.file, file);
+          },
+          py::arg("file"));
+}
+
+}  // namespace
+
+void BindCalibration(py::module_& module) {
+  BindFittedValue(module);
+  BindResult(module);
+  module.def(
+      "calibrate",
+      [](const RobotPtr& robot, const std::vector<RecordingPtr>& recordings,
+         std::vector<std::string> parts, bool actuator_offsets, bool actuator_gains,
+         double marker_bias_m, const std::string& cable_input, int threads) {
+        if (!(marker_bias_m >= 0.0)) throw InputError("marker_bias_m must be at least 0");
+        if (threads < 1 || threads > 64) throw InputError("threads: 1 to 64 are allowed");
+        return Calibrate(robot, recordings,
+                         {.parts = std::move(parts),
+                          .actuator_offsets = actuator_offsets,
+                          .actuator_gains = actuator_gains,
+                          .marker_bias_m = marker_bias_m,
+                          .preferred = ReadCableInput(cable_input),
+                          .threads = threads});
+      },
+      py::arg("robot"), py::arg("recordings"), py::kw_only(),
+      py::arg("parts") = std::vector<std::string>(), py::arg("actuator_offsets") = true,
+      py::arg("actuator_gains") = false, py::arg("marker_bias_m") = 0.0,
+      py::arg("cable_input") = "displacement", py::arg("threads") = 2);
+}
+
+}  // namespace palpate::python

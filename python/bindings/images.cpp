@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
+#include "libs/experiment/cloud/point_cloud.hpp"
+#include "libs/rgbd/color_image.hpp"
+#include "libs/rgbd/image.hpp"
+#include "libs/rgbd/png.hpp"
+#include "libs/rgbd/rgbd_camera.hpp"
+#include "python/bindings/arrays.hpp"
+#include "python/bindings/bind.hpp"
+#include "python/bindings/experiment.hpp"
+
+namespace py = pybind11;
+
+namespace palpate::python {
+
+namespace {
+
+using rgbd::CameraModel;
+using rgbd::RgbdCamera;
+
+/// An array that owns `image`: [h x w], of several channels [h x w x channels].
+template <typename T, int kChannels>
+py::array ArrayOf(rgbd::Image<T, kChannels> image) {
+  auto* kept = new rgbd::Image<T, kChannels>(std::move(image));
+  const py::capsule owner(
+      kept, [](void* memory) { delete static_cast<rgbd::Image<T, kChannels>*>(memory); });
+  std::vector<py::ssize_t> shape = {kept->height_px, kept->width_px};
+  if (kChannels > 1) shape.push_back(kChannels);
+  return py::array_t<T>(shape, kept->values.data(), owner);
+}
+
+/// Files of one kind in a recording, of which the last ones count from the end: -1 is the last.
+const std::filesystem::path& FileAt(const std::vector<experiment::StampedFile>& files,
+                                    py::ssize_t frame, const Recording& recording,
+                                    const std::string& what) {
+  const auto count = static_cast<py::ssize_t>(files.size());
+  const py::ssize_t index = frame < 0 ? frame + count : frame;
+  if (index < 0 || index >= count) {
+    throw py::index_error("recording '" + recording.data().name + "' has " + std::to_string(count) +
+                          " " + what + ", and none of number " + std::to_string(frame));
+  }
+  return files[static_cast<std::size_t>(index)].file;
+}
+
+RgbdCamera CameraOf(const Recording& recording) {
+  const experiment::Recording& data = recording.data();
+  if (!data.camera_file) {
+    throw InputError("recording '" + data.name + "' has no camera.yaml: " + data.folder.string());
+  }
+  return rgbd::ReadCameraFile(*data.camera_file, app::LoadYaml);
+}
+
+py::array DepthSteps(const Recording& recording, py::ssize_t frame) {
+  const auto& file = FileAt(recording.data().depth_images, frame, recording, "depth images");
+  rgbd::DepthImage image;
+  {
+    const py::gil_scoped_release released;
+    image = rgbd::ReadDepthPng(file);
+  }
+  return ArrayOf(std::move(image));
+}
+
+py::array Depth_m(const Recording& recording, py::ssize_t frame) {
+  const auto& file = FileAt(recording.data().depth_images, frame, recording, "depth images");
+  rgbd::RangeImage range_m;
+  {
+    const py::gil_scoped_release released;
+    const RgbdCamera camera = CameraOf(recording);
+    const rgbd::DepthImage steps = rgbd::ReadDepthPng(file);
+    range_m = rgbd::RangeImage(steps.width_px, steps.height_px);
+    for (std::size_t k = 0; k < steps.values.size(); ++k) {
+      range_m.values[k] = steps.values[k] == camera.invalid_value
+                              ? std::numeric_limits<float>::quiet_NaN()
+                              : static_cast<float>(steps.values[k] * camera.depth_unit_m);
+    }
+  }
+  return ArrayOf(std::move(range_m));
+}
+
+py::array ColorPixels(const Recording& recording, py::ssize_t frame) {
+  const auto& file = FileAt(recording.data().color_images, frame, recording, "colour images");
+  rgbd::ColorImage image;
+  {
+    const py::gil_scoped_release released;
+    image = rgbd::ReadColorImage(file);
+  }
+  return ArrayOf(std::move(image));
+}
+
+py::array CloudPoints_m(const Recording& recording, py::ssize_t frame) {
+  const auto& file = FileAt(recording.data().clouds, frame, recording, "clouds");
+  experiment::PointCloud cloud;
+  {
+    const py::gil_scoped_release released;
+    cloud = experiment::ReadPointCloud(file);
+  }
+  return CopyOfPoints(cloud.points_m);
+}
+
+Eigen::Matrix3d MatrixOf(const CameraModel& camera) {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = camera.fx_px;
+  K(1, 1) = camera.fy_px;
+  K.topRightCorner<2, 1>() << camera.cx_px, camera.cy_px;
+  return K;
+}
+
+void BindCameras(py::module_& module) {
+  py::class_<CameraModel>(module, "CameraModel",
+                          "A pinhole camera with OpenCV's rational lens distortion.")
+      .def_readonly("width_px", &CameraModel::width_px)
+      .def_readonly("height_px", &CameraModel::height_px)
+      .def_property_readonly(
+          "K", [](const CameraModel& camera) { return CopyOfMatrix(MatrixOf(camera)); })
+      .def_property_readonly("distortion", [](const CameraModel& camera) {
+        const auto numbers = camera.coefficients();
+        return CopyOfVector(Eigen::Map<const Eigen::VectorXd>(
+            numbers.data(), static_cast<Eigen::Index>(numbers.size())));
+      });
+  py::class_<RgbdCamera>(module, "Camera", "A depth camera and the colour camera beside it.")
+      .def_readonly("depth", &RgbdCamera::depth)
+      .def_property_readonly("color",
+                             [](const RgbdCamera& camera) {
+                               std::optional<CameraModel> color;
+                               if (camera.color.width_px > 0) color = camera.color;
+                               return color;
+                             })
+      .def_readonly("depth_unit_m", &RgbdCamera::depth_unit_m)
+      .def_readonly("invalid_value", &RgbdCamera::invalid_value)
+      .def_readonly("color_registered", &RgbdCamera::color_registered)
+      .def_property_readonly("T_depth_color", [](const RgbdCamera& camera) {
+        return CopyOfMatrix(camera.T_depth_color.matrix());
+      });
+}
+
+}  // namespace
+
+void BindImages(py::module_& module, py::class_<Recording, std::shared_ptr<Recording>>& recording) {
+  BindCameras(module);
+  recording.def_property_readonly("camera", &CameraOf)
+      .def("depth_steps", &DepthSteps, py::arg("frame"))
+      .def("depth_m", &Depth_m, py::arg("frame"))
+      .def("color", &ColorPixels, py::arg("frame"))
+      .def("cloud_m", &CloudPoints_m, py::arg("frame"));
+}
+
+}  // namespace palpate::python
