@@ -70,7 +70,7 @@ struct Config {
       "Time limit of one frame with given contacts, after the first fit; 0: no limit");
     v("solver", solver, fem::SolverNames(), "Sparse Cholesky of the model");
     v("threads", threads, {.min = 1.0, .max = 64.0},
-      "Threads of assembly, factorisation and solve; results do not depend on it");
+      "Threads of assembly, factorisation and solve; results agree to rounding");
   }
 };
 

@@ -47,7 +47,7 @@ void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver
   arguments.Choice("--solver", &solver->solver, fem::SolverNames(),
                    "Sparse Cholesky factorisation of the model");
   arguments.Option("--threads", &solver->threads, 1, kMostThreads,
-                   "Number of threads; results do not depend on it");
+                   "Number of threads; results agree to rounding");
 }
 
 robot::CableInput ParseCableInput(const std::string& word) {
