@@ -97,8 +97,7 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
     if (IsBounded(loads, c)) constraint[At(bounded++)] = c;
   }
   if (bounded == 0) return Status::Ok();
-  BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector::Zero(bounded),
-               QpVector(bounded)};
+  BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector(bounded), QpVector(bounded)};
   QpVector present(bounded);
   for (Eigen::Index k = 0; k < bounded; ++k) {
     const Eigen::Index c = constraint[At(k)];
@@ -106,6 +105,7 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
       qp.H(k, l) = gradients_.col(c).dot(columns_.col(l));
     }
     qp.c[k] = gradients_.col(c).dot(step_) + loads.command(c).value - Value(linearisation_, c, x_m);
+    qp.lower[k] = loads.command(c).min_multiplier_N;
     qp.upper[k] = loads.command(c).max_multiplier_N;
     present[k] = multipliers_N[c];
   }
@@ -138,7 +138,8 @@ double ConstraintError_m(const Linearisation& linearisation, const LoadState& lo
     if (!IsBounded(loads, c)) continue;
     if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the actuator cannot pull harder
     const double excess = Value(linearisation, c, x_m) - command.Bound_m(multipliers_N[c]);
-    error = std::max(error, multipliers_N[c] > 0.0 ? std::abs(excess) : excess);
+    const bool at_bound = multipliers_N[c] > command.min_multiplier_N;
+    error = std::max(error, at_bound ? std::abs(excess) : excess);
   }
   return error;
 }

@@ -20,8 +20,8 @@ namespace palpate::command {
 namespace {
 
 namespace fs = std::filesystem;
-using experiment::CableColumn;
-using experiment::CableQuantity;
+using experiment::ActuatorColumn;
+using experiment::ActuatorQuantity;
 
 std::optional<double> Sample(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -54,7 +54,8 @@ RecordingWriter::RecordingWriter(const robot::RobotDescription& robot,
     if (scenario.camera->camera.color.width_px > 0) experiment::CreateFolder(folder_ / "color");
   }
   for (const robot::CableSettings& cable : robot.cables) {
-    for (const CableQuantity quantity : {CableQuantity::kDisplacement, CableQuantity::kTension}) {
+    for (const ActuatorQuantity quantity :
+         {ActuatorQuantity::kDisplacement, ActuatorQuantity::kTension}) {
       actuation_.columns.push_back(
           {.cable = cable.name, .quantity = quantity, .samples = {}, .where = {}});
     }
@@ -97,7 +98,7 @@ void RecordingWriter::AddImage(const rgbd::RgbdFrame& frame) {
 }
 
 void RecordingWriter::Finish(double begin_s) {
-  std::erase_if(actuation_.columns, [](const CableColumn& column) {
+  std::erase_if(actuation_.columns, [](const ActuatorColumn& column) {
     return std::none_of(column.samples.begin(), column.samples.end(),
                         [](const std::optional<double>& sample) { return sample.has_value(); });
   });
