@@ -9,6 +9,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
+#include "libs/fem/constrained_tangent.hpp"
 
 namespace palpate::fem {
 
@@ -159,7 +160,10 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
                           result->residual_N <= RoundingForce_N(linearisation_, state->x_m);
     if (balanced && result->constraint_error_m <= settings_.constraint_tolerance_m) {
-      if (linearisation_.shifted()) return {StatusCode::kNotConverged, "the balance is unstable"};
+      if (linearisation_.shifted() &&
+          !IsStableUnderConstraints(linearisation_, loads, state->x_m, state->multipliers_N)) {
+        return {StatusCode::kNotConverged, "the balance is unstable"};
+      }
       return CheckLargestMultipliers(linearisation_, loads, state->x_m, state->multipliers_N,
                                      settings_.constraint_tolerance_m);
     }

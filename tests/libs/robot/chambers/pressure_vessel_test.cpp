@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -163,17 +164,37 @@ class NeoHookeanSphere : public testing::Test {
   Chamber chamber_;
 };
 
-TEST_F(NeoHookeanSphere, BlowsUpAsTheClosedFormSays) {
+/// Up to a largest pressure, and on under less where the volume is held.
+TEST_F(NeoHookeanSphere, BlowsUpThroughItsLimitPointAsTheClosedFormSays) {
   fem::ElasticBody body(problem_.mesh, {problem_.material},
                         std::vector<int>(static_cast<size_t>(problem_.mesh.CellCount()), 0));
   fem::Linearisation linearisation(body, problem_.constraints, problem_.fixed);
   fem::StaticSolver solver(linearisation);
   fem::StaticState state = solver.RestState();
-  for (const double stretch : {0.95, 1.05, 1.2}) {
-    EXPECT_NEAR(PressureAt(stretch, &solver, &state), Pressure_Pa(stretch),
-                0.01 * std::abs(Pressure_Pa(stretch)))
-        << stretch;
+  double largest_Pa = 0.0, last_Pa = 0.0;
+  for (const double stretch : {0.95, 1.1, 1.3, 1.5, 1.7, 1.9, 2.1, 2.4}) {
+    last_Pa = PressureAt(stretch, &solver, &state);
+    largest_Pa = std::max(largest_Pa, last_Pa);
+    EXPECT_NEAR(last_Pa, Pressure_Pa(stretch), 0.01 * std::abs(Pressure_Pa(stretch))) << stretch;
   }
+  EXPECT_LT(last_Pa, 0.98 * largest_Pa);
+}
+
+TEST_F(NeoHookeanSphere, HasNoStableBalanceUnderMoreThanItsLargestPressure) {
+  fem::ElasticBody body(problem_.mesh, {problem_.material},
+                        std::vector<int>(static_cast<size_t>(problem_.mesh.CellCount()), 0));
+  fem::Linearisation linearisation(body, problem_.constraints, problem_.fixed);
+  fem::StaticSolver solver(linearisation, {.max_load_steps = 8});
+  double largest_Pa = 0.0;
+  for (double stretch = 1.0; stretch < 3.0; stretch += 0.01) {
+    largest_Pa = std::max(largest_Pa, Pressure_Pa(stretch));
+  }
+  fem::StaticState state = solver.RestState();
+  fem::LoadState loads = state.loads;
+  loads.commands = {{.mode = Mode::kMultiplier, .value = 1.05 * largest_Pa * chamber_.area_m2()}};
+  const fem::StaticResult result = solver.Solve(loads, &state);
+  EXPECT_FALSE(result.status.ok());
+  EXPECT_LT(result.load_fraction, 0.99);
 }
 
 }  // namespace
