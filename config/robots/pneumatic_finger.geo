@@ -2,21 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Pneumatic finger: a silicone bar that stands on the plate z = 0, with one round chamber off its
-// middle and a stiff layer on the other side. Under pressure the side of the chamber becomes longer
-// and the finger bends towards the layer (-x). Lengths in mm.
+// middle, stiff rings around it, and a stiff layer on the other side. Under pressure the rings keep
+// it thin, the side of the chamber becomes longer, and it bends towards the layer (-x). Lengths in mm.
 //   gmsh -3 pneumatic_finger.geo -format msh41 -o pneumatic_finger.msh
 SetFactory("OpenCASCADE");
 
 DefineConstant[
   height = {110, Name "Finger/height"},
-  width = {24, Name "Finger/width, along y"},
-  depth = {22, Name "Finger/depth, along x"},
-  layer = {3, Name "Finger/thickness of the stiff layer, at x = -depth / 2"},
+  width = {18, Name "Finger/width, along y"},
+  depth = {18, Name "Finger/depth, along x"},
+  layer = {2.5, Name "Finger/thickness of the stiff layer, at x = -depth / 2"},
   chamber_radius = {5, Name "Chamber/radius"},
-  chamber_offset = {2, Name "Chamber/distance of its axis from the middle, towards +x"},
+  chamber_offset = {1.5, Name "Chamber/distance of its axis from the middle, towards +x"},
   root = {12, Name "Chamber/height of its lower end"},
   lid = {8, Name "Chamber/distance of its upper end from the tip"},
-  cell_size = {6.5, Name "Mesh/size"}
+  ring_count = {8, Name "Rings/count"},
+  ring_height = {3, Name "Rings/height"},
+  cell_size = {7, Name "Mesh/size"}
 ];
 
 bar = newv;
@@ -25,13 +27,30 @@ stiff = newv;
 Box(stiff) = {-depth / 2, -width / 2, 0, layer, width, height};
 hollow = newv;
 Cylinder(hollow) = {chamber_offset, 0, root, 0, 0, height - root - lid, chamber_radius};
-body() = BooleanDifference{ Volume{bar}; Delete; }{ Volume{hollow}; Delete; };
-parts() = BooleanFragments{ Volume{body()}; Delete; }{ Volume{stiff}; Delete; };
+rings() = {};
+pitch = (height - root - lid) / ring_count;
+For k In {0:ring_count - 1}
+  ring = newv;
+  Box(ring) = {-depth / 2 + layer, -width / 2, root + (k + 0.5) * pitch - ring_height / 2,
+               depth - layer, width, ring_height};
+  rings() += {ring};
+EndFor
+silicone() = BooleanDifference{ Volume{bar}; Delete; }{ Volume{hollow, rings()}; };
+solid_rings() = BooleanDifference{ Volume{rings()}; Delete; }{ Volume{hollow}; Delete; };
+parts() = BooleanFragments{ Volume{silicone(), solid_rings(), stiff}; Delete; }{};
 
-middle = depth / 2 - layer / 2;
-layer_volume() = Volume In BoundingBox {-depth / 2 - 0.1, -width, -1, -depth / 2 + layer + 0.1, width, height + 1};
-Physical Volume("stiff_layer") = {layer_volume()};
-Physical Volume("silicone") = {parts(0)};
+Physical Volume("stiff_layer") = Volume In BoundingBox {-depth / 2 - 0.1, -width, -1, -depth / 2 + layer + 0.1, width, height + 1};
+found() = {};
+For k In {0:ring_count - 1}
+  z = root + (k + 0.5) * pitch;
+  found() += Volume In BoundingBox {-depth, -width, z - ring_height / 2 - 0.1, depth, width, z + ring_height / 2 + 0.1};
+EndFor
+Physical Volume("rings") = {found()};
+rest() = Volume{:};
+rest() -= {found()};
+rest() -= Volume In BoundingBox {-depth / 2 - 0.1, -width, -1, -depth / 2 + layer + 0.1, width, height + 1};
+Physical Volume("silicone") = {rest()};
+
 gap = 0.1;
 wall() = Surface In BoundingBox {chamber_offset - chamber_radius - gap, -chamber_radius - gap, root - gap,
                                  chamber_offset + chamber_radius + gap, chamber_radius + gap,

@@ -107,22 +107,8 @@ class WallMaker {
     return corners;
   }
 
-  /// Turned round: seen from the chamber, its outside is the material.
   fem::MovingSurface OfFaces(const std::vector<int>& faces) const {
-    const Eigen::MatrixXi& all = locator_.boundary().faces;
-    constexpr std::array<int, 6> kTurned{0, 2, 1, 5, 4, 3};
-    fem::MovingSurface wall;
-    wall.faces.resize(all.rows(), ToIndex(faces.size()));
-    std::map<int, int> point_of_node;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      for (Eigen::Index k = 0; k < all.rows(); ++k) {
-        const int node = all(kTurned[At(k)], faces[f]);
-        const auto [entry, is_new] =
-            point_of_node.try_emplace(node, static_cast<int>(wall.points.size()));
-        if (is_new) wall.points.push_back({{node}, {1.0}});
-        wall.faces(k, ToIndex(f)) = entry->second;
-      }
-    }
+    fem::MovingSurface wall = WallOfFaces(locator_.boundary(), faces);
     CheckWall(wall, "it is an outer surface of the body: a chamber lies inside it");
     return wall;
   }
@@ -195,6 +181,24 @@ class WallMaker {
 };
 
 }  // namespace
+
+fem::MovingSurface WallOfFaces(const fem::BoundarySurface& boundary,
+                               const std::vector<int>& faces) {
+  constexpr std::array<int, 6> kTurned{0, 2, 1, 5, 4, 3};
+  fem::MovingSurface wall;
+  wall.faces.resize(boundary.faces.rows(), ToIndex(faces.size()));
+  std::map<int, int> point_of_node;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (Eigen::Index k = 0; k < wall.faces.rows(); ++k) {
+      const int node = boundary.faces(kTurned[At(k)], faces[f]);
+      const auto [entry, is_new] =
+          point_of_node.try_emplace(node, static_cast<int>(wall.points.size()));
+      if (is_new) wall.points.push_back({{node}, {1.0}});
+      wall.faces(k, ToIndex(f)) = entry->second;
+    }
+  }
+  return wall;
+}
 
 fem::MovingSurface ChamberWall(const ChamberSettings& chamber, const MeshSettings& placement,
                                const fem::PointLocator& locator,

@@ -21,4 +21,7 @@ fem::MovingSurface ChamberWall(const ChamberSettings& chamber, const MeshSetting
                                const fem::PointLocator& locator,
                                const std::vector<fem::NodeGroup>& groups);
 
+/// Faces of a mesh's boundary, turned round: seen from the chamber, its outside is the material.
+fem::MovingSurface WallOfFaces(const fem::BoundarySurface& boundary, const std::vector<int>& faces);
+
 }  // namespace palpate::robot

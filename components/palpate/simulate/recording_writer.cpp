@@ -60,6 +60,16 @@ RecordingWriter::RecordingWriter(const robot::RobotDescription& robot,
           {.cable = cable.name, .quantity = quantity, .samples = {}, .where = {}});
     }
   }
+  for (const robot::ChamberSettings& chamber : robot.chambers) {
+    for (const ActuatorQuantity quantity :
+         {ActuatorQuantity::kDisplacement, ActuatorQuantity::kTension}) {
+      actuation_.columns.push_back({.cable = chamber.name,
+                                    .quantity = quantity,
+                                    .samples = {},
+                                    .where = {},
+                                    .of_chamber = true});
+    }
+  }
   for (const robot::MarkerSettings& marker : robot.markers) markers_.names.push_back(marker.name);
 }
 
@@ -69,8 +79,10 @@ void RecordingWriter::AddCables(double t_s,
   actuation_.t_s.push_back(t_s);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const bool driven = std::isfinite(readings[i].displacement_m);
+    const bool of_chamber = actuation_.columns[2 * i].of_chamber;
+    const double least = of_chamber ? readings[i].tension_N : 0.0;
     const double tension_N =
-        driven ? std::max(0.0, readings[i].tension_N) : readings[i].displacement_m;
+        driven ? std::max(least, readings[i].tension_N) : readings[i].displacement_m;
     actuation_.columns[2 * i].samples.push_back(Sample(readings[i].displacement_m));
     actuation_.columns[2 * i + 1].samples.push_back(Sample(tension_N));
   }
