@@ -3,7 +3,9 @@
 
 #include "libs/geometry/closed_surface.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -17,6 +19,9 @@ namespace palpate::geometry {
 namespace {
 
 using Edge = std::pair<int, int>;
+
+/// Sine of the angle between a segment and a triangle's plane below which they count as parallel.
+constexpr double kParallel = 1e-9;
 
 Eigen::Matrix3d CornersOf(const TriangleSurface& surface, int triangle) {
   Eigen::Matrix3d corners_m;
@@ -32,7 +37,8 @@ bool SegmentMeets(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
   const Eigen::Vector3d v_m = corners_m.col(2) - corners_m.col(0);
   const Eigen::Vector3d normal = along_m.cross(v_m);
   const double determinant = u_m.dot(normal);
-  if (determinant == 0.0) return false;  // parallel: an edge of the other cuts, or none
+  // Nearly parallel, where only rounding would decide: another edge cuts, or none.
+  if (std::abs(determinant) <= kParallel * along_m.norm() * u_m.cross(v_m).norm()) return false;
   const Eigen::Vector3d offset_m = from_m - corners_m.col(0);
   const double u = offset_m.dot(normal) / determinant;
   if (u < 0.0 || u > 1.0) return false;

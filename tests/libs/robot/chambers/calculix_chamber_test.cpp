@@ -18,7 +18,7 @@ using fem::verification::StaticProblem;
 
 /// That the pressure follows the wall is 3 % of the answer. At
 /// larger pressures CalculiX's integration over faces that bend (three points) shows.
-constexpr double kPressure_Pa = 1e3;
+constexpr double kBarPressure_Pa = 1e3;
 
 /// A bar of 60 x 20 x 20 mm, clamped at x = 0, with a hollow off its axis: pressure bends it. The
 /// material is CalculiX's neo-Hookean (Yeoh's first term).
@@ -59,10 +59,10 @@ TEST_P(ChamberInCalculix, BendsABarAlike) {
   Chamber chamber(CavityWall(bar.mesh), bar.mesh.nodes_m.reshaped());
   bar.constraints = {&chamber};
   bar.commands = {{.mode = fem::ConstraintCommand::Mode::kMultiplier,
-                   .value = kPressure_Pa * chamber.area_m2()}};
+                   .value = kBarPressure_Pa * chamber.area_m2()}};
   const fem::verification::Solution ours = fem::verification::Solve(bar);
   ASSERT_TRUE(ours.result.status.ok()) << ours.result.status.message();
-  Press(kPressure_Pa, &bar);
+  Press(kBarPressure_Pa, &bar);
   const Eigen::VectorXd theirs_m = SolveWithCalculix(*ccx, bar);
   EXPECT_GT(theirs_m.lpNorm<Eigen::Infinity>(), 5e-5);  // it bends
   EXPECT_LE((ours.u_m - theirs_m).norm(), 1e-4 * theirs_m.norm());

@@ -165,7 +165,8 @@ TEST_F(ChamberModel, ABaseCarriesChambersAlong) {
       {}, Volume(*model_, 1, 6e-8), Pressure(*model_, 2, 3e3)};
   Reach(commands);
   std::vector<ParameterPtr> parameters;
-  parameters.push_back(BaseTranslation(Eigen::Vector3d::UnitY(), BaseRiders::kHeldNodesAndPullPoints));
+  parameters.push_back(
+      BaseTranslation(Eigen::Vector3d::UnitY(), BaseRiders::kHeldNodesAndPullPoints));
   SensitivitySolver sensitivity(*model_);
   ASSERT_TRUE(sensitivity.Compute(commands, state_, parameters).ok());
   EXPECT_LE((sensitivity.PointMotion(tip_).col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-8);

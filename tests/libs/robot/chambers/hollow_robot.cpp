@@ -17,7 +17,7 @@ namespace palpate::robot {
 
 namespace {
 
-Eigen::MatrixXi Skin(const fem::TetMesh& mesh, std::size_t number) {
+Eigen::MatrixXi FacesOfSkin(const fem::TetMesh& mesh, std::size_t number) {
   const fem::BoundarySurface boundary = fem::ExtractBoundary(mesh);
   const std::vector<int> faces = fem::InnerSkins(mesh, boundary).at(number);
   return boundary.CornerTriangles()(Eigen::all, faces);
@@ -51,7 +51,7 @@ fem::TetMesh HollowBar_mm() {
 
 geometry::TriangleSurface UpperWall_mm() {
   const fem::TetMesh mesh = HollowBar_mm();
-  Eigen::MatrixXi faces = Skin(mesh, 1);
+  Eigen::MatrixXi faces = FacesOfSkin(mesh, 1);
   faces.row(1).swap(faces.row(2));
   return {mesh.nodes_m, faces};
 }
@@ -105,7 +105,7 @@ void WriteStl(const geometry::TriangleSurface& surface, const std::filesystem::p
 
 HollowRobotTest::HollowRobotTest() {
   const fem::TetMesh mesh = HollowBar_mm();
-  const Eigen::MatrixXi lower = Skin(mesh, 0), upper = Skin(mesh, 1);
+  const Eigen::MatrixXi lower = FacesOfSkin(mesh, 0), upper = FacesOfSkin(mesh, 1);
   const fem::BoundarySurface boundary = fem::ExtractBoundary(mesh);
   const std::vector<int> outer = fem::OuterFaces(mesh, boundary);
   WriteGmsh(mesh,

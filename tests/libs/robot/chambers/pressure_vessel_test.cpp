@@ -25,9 +25,9 @@ constexpr double kModulus_Pa = 100e3;
 constexpr double kRatio = 0.3;
 constexpr double kPressure_Pa = 1.0;  // strains of 1e-5: small
 
-const fem::Material kLinear{.model = fem::MaterialModel::kLinear,
-                            .youngs_modulus_Pa = kModulus_Pa,
-                            .poissons_ratio = kRatio};
+const fem::Material kLinearWall{.model = fem::MaterialModel::kLinear,
+                                .youngs_modulus_Pa = kModulus_Pa,
+                                .poissons_ratio = kRatio};
 
 /// Holds a ball against rigid motions where its own motion along the axes stays free.
 void HoldOnAxes(double outer_m, StaticProblem* problem) {
@@ -68,7 +68,7 @@ double ErrorAtWall(const Solution& solution, const fem::TetMesh& mesh, int dimen
 }
 
 double SphereError(ElementType element, int layers, int divisions) {
-  StaticProblem problem(SphericalShell(layers, divisions, element), kLinear);
+  StaticProblem problem(SphericalShell(layers, divisions, element), kLinearWall);
   HoldOnAxes(kOuter_m, &problem);
   const Pressurised chamber(CavityWall(problem.mesh), kPressure_Pa, &problem);
   const Solution solution = Solve(problem);
@@ -97,7 +97,7 @@ TEST(PressureVessel, SphereOfLinearTetsConvergesToLame) {
 
 double TubeError(ElementType element, int layers, int around) {
   const double length_m = 0.002;
-  StaticProblem problem(Tube(length_m, layers, around, element), kLinear);
+  StaticProblem problem(Tube(length_m, layers, around, element), kLinearWall);
   problem.Fix([](const Eigen::Vector3d&) { return true; }, false, false, true);  // plane strain
   problem.Fix([](const Eigen::Vector3d& p) { return std::abs(p.x()) < 1e-9; }, true, false, false);
   problem.Fix([](const Eigen::Vector3d& p) { return std::abs(p.y()) < 1e-9; }, false, true, false);
