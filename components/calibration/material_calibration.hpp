@@ -26,7 +26,7 @@ struct StaticObservation {
   Eigen::VectorXd variance_m2;  ///< [3m] of these means; <= 0: not observed
   ReferenceShape reference = ReferenceShape::kNone;
   Eigen::VectorXd reference_position_m;  ///< [3m] in the reference shape; kNone: empty
-  std::vector<robot::CableCommand> cables;
+  std::vector<robot::ActuatorCommand> cables;
   std::vector<robot::DeadLoad> loads;
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
 };

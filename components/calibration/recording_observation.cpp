@@ -75,7 +75,7 @@ StaticObservation ObserveRecording(const experiment::Experiment& experiment,
                                    double marker_bias_m) {
   const auto& frames = experiment::RequireMarkers(recording).frames;
   experiment::CheckMarkers(recording, model.MarkerNames());
-  experiment::CheckCables(recording, model.CableNames());
+  experiment::CheckActuators(recording, model.CableNames(), model.ChamberNames());
   const Eigen::Isometry3d T_robot = experiment::RequireRobotFromMarkers(experiment, recording);
   const experiment::TimeWindow window = recording.steady_window_s.value_or(
       experiment::TimeWindow{frames.front().t_s, frames.back().t_s});

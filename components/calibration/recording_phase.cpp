@@ -16,8 +16,10 @@ namespace {
 
 /// Larger values take slow motions for static phases.
 struct RecordingPhaseTuning {
-  double still_m = 1e-5;  ///< range of a displacement without motion
-  double still_N = 1e-3;  ///< range of a tension without motion
+  double still_m = 1e-5;   ///< range of a displacement without motion
+  double still_N = 1e-3;   ///< range of a tension without motion
+  double still_m3 = 1e-9;  ///< the same of a chamber's volume
+  double still_Pa = 20.0;  ///< and of its pressure
 };
 constexpr RecordingPhaseTuning kPhaseTuning;
 
@@ -27,11 +29,18 @@ robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::Robot
   return {patch.weights, load.force_N};
 }
 
+/// In the unit of the column.
+double StillBelow(const experiment::ActuatorColumn& column) {
+  const bool by_force = column.quantity == experiment::ActuatorQuantity::kTension;
+  if (column.of_chamber) return by_force ? kPhaseTuning.still_Pa : kPhaseTuning.still_m3;
+  return by_force ? kPhaseTuning.still_N : kPhaseTuning.still_m;
+}
+
 }  // namespace
 
 bool CablesAreStill(const experiment::Recording& recording) {
   if (!recording.actuation) return true;
-  for (const experiment::CableColumn& column : recording.actuation->columns) {
+  for (const experiment::ActuatorColumn& column : recording.actuation->columns) {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
     for (const std::optional<double>& sample : column.samples) {
@@ -39,8 +48,7 @@ bool CablesAreStill(const experiment::Recording& recording) {
       least = std::min(least, *sample);
       most = std::max(most, *sample);
     }
-    const bool by_tension = column.quantity == experiment::CableQuantity::kTension;
-    if (most - least > (by_tension ? kPhaseTuning.still_N : kPhaseTuning.still_m)) return false;
+    if (most - least > StillBelow(column)) return false;
   }
   return true;
 }
@@ -61,16 +69,16 @@ std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recor
   return times;
 }
 
-std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
-                                          const robot::RobotModel& model,
-                                          robot::CableInput preferred, double t_s) {
-  using Quantity = experiment::CableQuantity;
-  std::vector<robot::CableCommand> commands;
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const std::string& cable = model.body().cables[At(c)].name;
+std::vector<robot::ActuatorCommand> CablesAt(const experiment::Recording& recording,
+                                             const robot::RobotModel& model,
+                                             robot::CableInput preferred, double t_s) {
+  using Quantity = experiment::ActuatorQuantity;
+  std::vector<robot::ActuatorCommand> commands;
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
+    const std::string& name = model.traits(c).name;
     commands.push_back(model.CommandFor(
-        c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
-        experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));
+        c, experiment::ActuatorInputAt(recording, name, Quantity::kDisplacement, t_s),
+        experiment::ActuatorInputAt(recording, name, Quantity::kTension, t_s), preferred));
   }
   return commands;
 }

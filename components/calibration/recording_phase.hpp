@@ -21,9 +21,9 @@ std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recor
 
 /// Cable inputs at this time of the recording, corrected by the model's actuators; kNone for a
 /// cable without recorded input.
-std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
-                                          const robot::RobotModel& model,
-                                          robot::CableInput preferred, double t_s);
+std::vector<robot::ActuatorCommand> CablesAt(const experiment::Recording& recording,
+                                             const robot::RobotModel& model,
+                                             robot::CableInput preferred, double t_s);
 
 /// The known loads at that time. Throws InputError (file:line) where one lies off the body.
 std::vector<robot::DeadLoad> LoadsAt(const experiment::Recording& recording,

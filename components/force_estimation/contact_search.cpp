@@ -72,7 +72,7 @@ ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, For
 
 const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
                                                  const Eigen::VectorXd& shared_variance_m2,
-                                                 const std::vector<robot::CableCommand>& cables,
+                                                 const std::vector<robot::ActuatorCommand>& cables,
                                                  const fem::StaticState& free_state) {
   const double limit = ChiSquaredQuantile(1.0 - config_.significance, targets.rows);
   const ModelState start{.valid = true,
@@ -102,8 +102,8 @@ const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
 }
 
 void ContactSearch::Search(const RowTargets& targets,
-                           const std::vector<robot::CableCommand>& cables, const ModelState& start,
-                           const ModelState* about, double limit) {
+                           const std::vector<robot::ActuatorCommand>& cables,
+                           const ModelState& start, const ModelState* about, double limit) {
   Result& result = found_.result;
   result = Result();
   result.status = Status(StatusCode::kNoContact, {});
@@ -129,7 +129,7 @@ void ContactSearch::Search(const RowTargets& targets,
 /// better stays. Responses are those about the frame's state, which is near: one about the free
 /// state costs a round more.
 void ContactSearch::SearchInMean(const RowTargets& targets,
-                                 const std::vector<robot::CableCommand>& cables,
+                                 const std::vector<robot::ActuatorCommand>& cables,
                                  const ModelState& start, double limit) {
   const Found before = found_;
   Search(pool_.Mean(), cables, start, &before.result.state, limit);
@@ -145,7 +145,7 @@ void ContactSearch::SearchInMean(const RowTargets& targets,
 /// Fits the forces at the locations of the last frame. Model errors grow with the forces, and the
 /// limit of the residual with them.
 bool ContactSearch::KeepContacts(const RowTargets& targets,
-                                 const std::vector<robot::CableCommand>& cables,
+                                 const std::vector<robot::ActuatorCommand>& cables,
                                  double noise_limit) {
   Result& result = found_.result;
   if (!result.status.ok() || result.sites.empty()) return false;
@@ -184,7 +184,7 @@ bool ContactSearch::IsTaken(const FitSite& site) const {
 }
 
 Status ContactSearch::ScreenSites(const RowTargets& targets,
-                                  const std::vector<robot::CableCommand>& cables,
+                                  const std::vector<robot::ActuatorCommand>& cables,
                                   const ModelState& state, const std::vector<FitSite>& sites,
                                   std::vector<Screened>* screened) {
   std::vector<ScreenedSite> results;
@@ -204,7 +204,7 @@ Status ContactSearch::ScreenSites(const RowTargets& targets,
 /// The coarse candidates, and the fine places around the best of them; the best first. Responses
 /// are those about `state`.
 Status ContactSearch::ScreenAll(const RowTargets& targets,
-                                const std::vector<robot::CableCommand>& cables,
+                                const std::vector<robot::ActuatorCommand>& cables,
                                 const ModelState& state, std::vector<Screened>* screened) {
   screened->clear();
   Status status = ScreenSites(targets, cables, state, candidates_.coarse(), screened);
@@ -226,7 +226,7 @@ Status ContactSearch::ScreenAll(const RowTargets& targets,
 /// Fits one candidate to equilibrium, from `start` on: with the force of the screening, or with
 /// none.
 bool ContactSearch::FitCandidate(const RowTargets& targets,
-                                 const std::vector<robot::CableCommand>& cables,
+                                 const std::vector<robot::ActuatorCommand>& cables,
                                  const ModelState& start, const Screened& candidate,
                                  FirstForce first_force, Fitted* fitted) {
   std::vector<FitSite> sites = found_.result.fit_sites;
@@ -255,9 +255,10 @@ bool ContactSearch::IsBetter(const Fitted& a, const Fitted& b) {
 /// Fits the best candidates, and takes the best of them into `best` where it is better. Those at
 /// `fitted_m`, of the rounds before, are not fitted again.
 bool ContactSearch::FitBest(const RowTargets& targets,
-                            const std::vector<robot::CableCommand>& cables, const ModelState& start,
-                            const std::vector<Screened>& screened, FirstForce first_force,
-                            std::vector<Eigen::Vector3d>* fitted_m, Fitted* best) {
+                            const std::vector<robot::ActuatorCommand>& cables,
+                            const ModelState& start, const std::vector<Screened>& screened,
+                            FirstForce first_force, std::vector<Eigen::Vector3d>* fitted_m,
+                            Fitted* best) {
   bool better = false;
   int fitted = 0;
   const size_t tried = std::min(screened.size(), kContactSearchTuning.tried_candidates);
@@ -281,7 +282,7 @@ bool ContactSearch::FitBest(const RowTargets& targets,
 
 /// The first round screens about `known_state`, or where it is null about the state found so far.
 Status ContactSearch::AddContact(const RowTargets& targets,
-                                 const std::vector<robot::CableCommand>& cables,
+                                 const std::vector<robot::ActuatorCommand>& cables,
                                  const ModelState* known_state) {
   Result& result = found_.result;
   const Eigen::Index known_forces = result.state.lambda_f_N.size();

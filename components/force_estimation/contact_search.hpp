@@ -47,7 +47,7 @@ class ContactSearch {
   /// `shared_variance_m2` [rows]: the part of the variance that is of an error which all frames
   /// share. `free_state`: the equilibrium without contact under these cable inputs.
   const Result& Find(const RowTargets& targets, const Eigen::VectorXd& shared_variance_m2,
-                     const std::vector<robot::CableCommand>& cables,
+                     const std::vector<robot::ActuatorCommand>& cables,
                      const fem::StaticState& free_state);
 
   const Result& result() const { return found_.result; }
@@ -76,24 +76,24 @@ class ContactSearch {
     double force_N = 0.0;                                 ///< norm of all forces of the search
   };
 
-  void Search(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  void Search(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
               const ModelState& start, const ModelState* about, double limit);
-  void SearchInMean(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  void SearchInMean(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                     const ModelState& start, double limit);
-  bool KeepContacts(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  bool KeepContacts(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                     double noise_limit);
-  Status AddContact(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  Status AddContact(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                     const ModelState* known_state);
-  Status ScreenSites(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  Status ScreenSites(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                      const ModelState& state, const std::vector<FitSite>& sites,
                      std::vector<Screened>* screened);
-  Status ScreenAll(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  Status ScreenAll(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                    const ModelState& state, std::vector<Screened>* screened);
-  bool FitCandidate(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  bool FitCandidate(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                     const ModelState& start, const Screened& candidate, FirstForce first_force,
                     Fitted* fitted);
   static bool IsBetter(const Fitted& a, const Fitted& b);
-  bool FitBest(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  bool FitBest(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                const ModelState& start, const std::vector<Screened>& screened,
                FirstForce first_force, std::vector<Eigen::Vector3d>* fitted_m, Fitted* best);
   bool IsTaken(const FitSite& site) const;

@@ -46,7 +46,7 @@ struct ForceEstimate {
   /// from the robot's shape.
   Eigen::VectorXd marker_residual_m;
   Eigen::VectorXd x_m;  ///< [3n] nodes in equilibrium with the forces, robot frame
-  std::vector<robot::CableState> cables;
+  std::vector<robot::ActuatorState> cables;
 };
 
 /// Whether an estimate of this status may be used: forces were found, or none act.

@@ -94,7 +94,7 @@ class MarkerForceEstimator::Impl {
     targets_.value_m = targets_.weight = shared_variance_m2_ = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
     estimate_.x_m = free_state_.x_m;
-    estimate_.cables.resize(static_cast<size_t>(model.CableCount()));
+    estimate_.cables.resize(static_cast<size_t>(model.ActuatorCount()));
     withdrawn_.reserve(static_cast<size_t>(config.max_contacts) + sites_.size());
   }
 
@@ -165,8 +165,8 @@ class MarkerForceEstimator::Impl {
   Eigen::MatrixXd by_pose_N_;      ///< [3k x 6] the forces by it
   double freedom_ = 0.0;           ///< coordinates used; those on a contact count as their weight
   fem::StaticState free_state_;    ///< last equilibrium without contact
-  std::optional<std::vector<robot::CableCommand>> free_inputs_;  ///< of free_state_
-  ModelState state_;                                             ///< last fit
+  std::optional<std::vector<robot::ActuatorCommand>> free_inputs_;  ///< of free_state_
+  ModelState state_;                                                ///< last fit
   ForceEstimate estimate_;
   std::vector<ContactForce> withdrawn_;  ///< keeps its memory for the next frame
   bool published_ = false;               ///< the estimate has a state of this frame
@@ -263,12 +263,12 @@ void MarkerForceEstimator::Impl::FollowReference(const MarkerFrame& frame) {
   if (!history_.active()) return;
   history_.Prepare(frame.t_s, frame.cables);
   if (frame.reference != ReferenceShape::kUndeformed) return;
-  history_.Commit(model_.elastic_body().rest_m(), Eigen::VectorXd::Zero(model_.CableCount()));
+  history_.Commit(model_.elastic_body().rest_m(), Eigen::VectorXd::Zero(model_.ActuatorCount()));
 }
 
 void MarkerForceEstimator::Impl::CommitHistory() {
   if (!history_.active()) return;
-  Eigen::VectorXd tension_N(model_.CableCount());
+  Eigen::VectorXd tension_N(model_.ActuatorCount());
   for (Eigen::Index c = 0; c < tension_N.size(); ++c)
     tension_N[c] = estimate_.cables[At(c)].tension_N;
   history_.Commit(estimate_.x_m, tension_N);
@@ -276,10 +276,11 @@ void MarkerForceEstimator::Impl::CommitHistory() {
 
 Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {
   PALPATE_CHECK(frame.markers.size() == model_.body().markers.size(), frame.markers.size());
-  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.CableCount(), frame.cables.size());
-  for (const robot::CableCommand& command : frame.cables) {
+  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.ActuatorCount(),
+                frame.cables.size());
+  for (const robot::ActuatorCommand& command : frame.cables) {
     if (!std::isfinite(command.value)) {
-      return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
+      return {StatusCode::kInvalidInput, "an input of an actuator is not a finite number"};
     }
   }
   return Status::Ok();
@@ -424,10 +425,11 @@ void MarkerForceEstimator::Impl::PublishFit(const ForceFit& fit) {
 void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
   published_ = true;
   estimate_.x_m = state.x_m;
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const double length = model_.cable(c).Value(state.x_m);
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
+    const robot::Actuator& actuator = model_.actuator(c);
+    const double length = actuator.Value(state.x_m);
     estimate_.cables[At(c)] = {.length_m = length,
-                               .displacement_m = model_.cable(c).rest_length_m() - length,
+                               .displacement_m = actuator.rest_value_m() - length,
                                .tension_N = state.lambda_a_N[c]};
   }
 }
@@ -440,7 +442,7 @@ void MarkerForceEstimator::Impl::Withdraw() {
   estimate_.degrees_of_freedom = 0;
   estimate_.marker_residual_m.setConstant(kUnknown);
   estimate_.x_m.setConstant(kUnknown);
-  for (robot::CableState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
+  for (robot::ActuatorState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
 }
 
 void MarkerForceEstimator::Impl::HideContacts() {

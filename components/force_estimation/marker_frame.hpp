@@ -29,8 +29,8 @@ struct MarkerObservation {
 struct MarkerFrame {
   double t_s = 0.0;
   ReferenceShape reference = ReferenceShape::kNone;
-  std::vector<MarkerObservation> markers;   ///< in the order of the robot's markers
-  std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  std::vector<MarkerObservation> markers;      ///< in the order of the robot's markers
+  std::vector<robot::ActuatorCommand> cables;  ///< in the order of the robot's cables
   /// Where known loads act now. They are the contacts where the settings give none: of known place
   /// and unknown force.
   std::vector<ContactSite> loads = {};

@@ -30,16 +30,16 @@ Eigen::Vector3d RotateSigma(const Eigen::Matrix3d& R_robot_measurement,
   return covariance.diagonal().cwiseSqrt();
 }
 
-std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
-                                          const robot::RobotModel& model,
-                                          robot::CableInput preferred, double t_s) {
-  using Quantity = experiment::CableQuantity;
-  std::vector<robot::CableCommand> commands;
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const std::string& cable = model.body().cables[At(c)].name;
+std::vector<robot::ActuatorCommand> CablesAt(const experiment::Recording& recording,
+                                             const robot::RobotModel& model,
+                                             robot::CableInput preferred, double t_s) {
+  using Quantity = experiment::ActuatorQuantity;
+  std::vector<robot::ActuatorCommand> commands;
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
+    const std::string& name = model.traits(c).name;
     commands.push_back(model.CommandFor(
-        c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
-        experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));
+        c, experiment::ActuatorInputAt(recording, name, Quantity::kDisplacement, t_s),
+        experiment::ActuatorInputAt(recording, name, Quantity::kTension, t_s), preferred));
   }
   return commands;
 }
@@ -51,7 +51,7 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
   const std::vector<std::string> marker_names = model.MarkerNames();
   const experiment::MarkerTracks& tracks = experiment::RequireMarkers(recording);
   experiment::CheckMarkers(recording, marker_names);
-  experiment::CheckCables(recording, model.CableNames());
+  experiment::CheckActuators(recording, model.CableNames(), model.ChamberNames());
   const Eigen::Isometry3d T_robot_measurement =
       experiment::RequireRobotFromMarkers(experiment, recording);
   const Eigen::Vector3d sigma_m = RotateSigma(

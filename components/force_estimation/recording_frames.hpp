@@ -19,9 +19,9 @@ Eigen::Vector3d RotateSigma(const Eigen::Matrix3d& R_robot_measurement,
 
 /// Inputs of the robot's cables at `t_s`, in the robot's order. `preferred`: where a cable has
 /// both.
-std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
-                                          const robot::RobotModel& model,
-                                          robot::CableInput preferred, double t_s);
+std::vector<robot::ActuatorCommand> CablesAt(const experiment::Recording& recording,
+                                             const robot::RobotModel& model,
+                                             robot::CableInput preferred, double t_s);
 
 /// The frames of a recording as MarkerForceEstimator takes them: markers in the robot's order and
 /// frame, cable inputs interpolated to each frame's time, the reference window marked, with the

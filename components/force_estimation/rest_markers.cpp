@@ -81,7 +81,7 @@ Status CheckShape(const RestMarkers& markers, const geometry::Registration& fit,
 }  // namespace
 
 Status ReferenceMarkers(robot::RobotModel& model, ReferenceShape shape,
-                        const std::vector<robot::CableCommand>& cables,
+                        const std::vector<robot::ActuatorCommand>& cables,
                         Eigen::VectorXd* positions_m) {
   PALPATE_CHECK(shape != ReferenceShape::kNone);
   fem::StaticState state = model.RestState();

@@ -19,7 +19,7 @@ namespace palpate::force_estimation {
 /// the equilibrium under gravity and `cables`. Not ok, and `positions_m` unchanged, where that
 /// equilibrium is not found. `shape` must not be kNone.
 Status ReferenceMarkers(robot::RobotModel& model, ReferenceShape shape,
-                        const std::vector<robot::CableCommand>& cables,
+                        const std::vector<robot::ActuatorCommand>& cables,
                         Eigen::VectorXd* positions_m);
 
 /// Markers at rest as they were measured and as the model has them, column k the same marker.

@@ -22,8 +22,10 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/fem/boundary_surface.hpp"
 #include "libs/fem/mesh_io/mesh_kind.hpp"
 #include "libs/fem/mesh_report.hpp"
+#include "libs/geometry/triangle_surface.hpp"
 #include "libs/recording/recorded_messages.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -51,6 +53,37 @@ void DescribeCandidates(const robot::RobotDescription& description, const robot:
                   inner > 0 ? fmt::format(", {} faces of closed cavities left out", inner) : "");
 }
 
+void DescribeChambers(const robot::RobotBody& body, Findings* found) {
+  found->json["chambers"] = Json::array();
+  for (const robot::BodyChamber& chamber : body.chambers) {
+    found->json["chambers"].push_back({{"name", chamber.name},
+                                       {"volume_m3", chamber.volume_m3},
+                                       {"dead_volume_m3", chamber.dead_volume_m3},
+                                       {"max_pressure_Pa", chamber.max_pressure_Pa},
+                                       {"faces", chamber.wall.faces.cols()}});
+    found->text += fmt::format("chamber {}: {:.4g} cm3 within {} faces, at most {:g} kPa\n",
+                               chamber.name, 1e6 * chamber.volume_m3, chamber.wall.faces.cols(),
+                               1e-3 * chamber.max_pressure_Pa);
+  }
+  const auto skins = fem::InnerSkins(body.mesh, body.boundary);
+  found->json["inner_skins"] = Json::array();
+  for (std::size_t k = 0; k < skins.size(); ++k) {
+    const geometry::TriangleSurface skin{body.mesh.nodes_m,
+                                         body.boundary.CornerTriangles()(Eigen::all, skins[k])};
+    const double volume_m3 = -geometry::EnclosedVolume_m3(skin);
+    const Eigen::Vector3d centre_m =
+        skin.vertices_m(Eigen::all, skin.triangles.reshaped()).rowwise().mean();
+    found->json["inner_skins"].push_back(
+        {{"number", k + 1},
+         {"faces", skins[k].size()},
+         {"volume_m3", volume_m3},
+         {"centre_m", {centre_m.x(), centre_m.y(), centre_m.z()}}});
+    found->text += fmt::format(
+        "inner skin {}: {} faces around {:.4g} cm3 near ({:.4g}, {:.4g}, {:.4g}) m\n", k + 1,
+        skins[k].size(), 1e6 * volume_m3, centre_m.x(), centre_m.y(), centre_m.z());
+  }
+}
+
 Findings DescribeRobot(const InfoOptions& options) {
   const auto description = robot::ReadRobotFile(FindRobotFile(options.target), app::LoadYaml);
   const robot::RobotBody body = robot::BuildRobotBody(description);
@@ -74,6 +107,7 @@ Findings DescribeRobot(const InfoOptions& options) {
     found.text += fmt::format("cable {}: {} point(s) on the body, at most {:g} N\n", cable.name,
                               cable.eyelets.size(), cable.max_tension_N);
   }
+  DescribeChambers(body, &found);
   for (const robot::BodyMarker& marker : body.markers) {
     found.json["markers"].push_back(marker.name);
     found.text += fmt::format("marker {}: {:.2f} mm off the body\n", marker.name,

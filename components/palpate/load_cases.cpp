@@ -15,47 +15,43 @@ namespace palpate::command {
 namespace {
 
 using experiment::Actuation;
-using experiment::CableColumn;
-using experiment::CableQuantity;
-using robot::CableCommand;
+using experiment::ActuatorColumn;
+using experiment::ActuatorQuantity;
+using robot::ActuatorCommand;
 
-void CheckCables(const Actuation& actuation, const std::vector<std::string>& cable_names) {
-  for (const CableColumn& column : actuation.columns) {
-    if (std::find(cable_names.begin(), cable_names.end(), column.cable) == cable_names.end()) {
-      throw InputError(column.where, "the robot has no cable '" + column.cable + "'" +
-                                         DidYouMean(column.cable, cable_names));
-    }
-  }
-}
-
-// The columns of one cable; nullptr where the file has none.
-struct CableColumns {
-  const CableColumn* displacement = nullptr;
-  const CableColumn* tension = nullptr;
+// The columns of one actuator; nullptr where the file has none.
+struct Columns {
+  const ActuatorColumn* displacement = nullptr;
+  const ActuatorColumn* tension = nullptr;
 };
 
-CableColumns ColumnsOf(const Actuation& actuation, const std::string& cable) {
-  return {actuation.Find(cable, CableQuantity::kDisplacement),
-          actuation.Find(cable, CableQuantity::kTension)};
+Columns ColumnsOf(const Actuation& actuation, const std::string& actuator) {
+  return {actuation.Find(actuator, ActuatorQuantity::kDisplacement),
+          actuation.Find(actuator, ActuatorQuantity::kTension)};
 }
 
-CableCommand CommandAt(const Actuation& actuation, const CableColumns& columns, double t_s,
-                       robot::CableInput preferred) {
-  const auto value = [&](const CableColumn* column) {
+ActuatorCommand CommandAt(const Actuation& actuation, const Columns& columns,
+                          const robot::ActuatorTraits& traits, double t_s,
+                          robot::CableInput preferred) {
+  const auto value = [&](const ActuatorColumn* column) {
     return column == nullptr ? std::nullopt
                              : std::optional<double>(actuation.ValueAt(*column, t_s));
   };
-  return robot::ChooseCommand(value(columns.displacement), value(columns.tension), preferred);
+  return robot::ChooseCommand(traits, value(columns.displacement), value(columns.tension),
+                              preferred);
 }
 
-void NoteChoice(const std::string& cable, const CableColumns& columns, robot::CableInput preferred,
-                std::vector<std::string>* notes) {
+void NoteChoice(const robot::ActuatorTraits& traits, const Columns& columns,
+                robot::CableInput preferred, std::vector<std::string>* notes) {
+  const bool is_chamber = traits.IsChamber();
   if (columns.displacement == nullptr && columns.tension == nullptr) {
-    notes->push_back("cable " + cable + " is not actuated: its tension is 0");
+    notes->push_back(traits.Title() + (is_chamber ? " is open to the air: its pressure is 0"
+                                                  : " is not actuated: its tension is 0"));
   } else if (columns.displacement != nullptr && columns.tension != nullptr) {
-    const bool displacement = preferred == robot::CableInput::kDisplacement;
-    notes->push_back("cable " + cable + " has a displacement and a tension: the " +
-                     (displacement ? "displacement" : "tension") +
+    const std::string displacement = is_chamber ? "volume" : "displacement";
+    const std::string tension = is_chamber ? "pressure" : "tension";
+    notes->push_back(traits.Title() + " has a " + displacement + " and a " + tension + ": the " +
+                     (preferred == robot::CableInput::kDisplacement ? displacement : tension) +
                      " is prescribed (--cable-input)");
   }
 }
@@ -89,19 +85,24 @@ Actuation ReadActuationRows(const std::filesystem::path& file) {
 
 LoadCases MakeLoadCases(const std::optional<Actuation>& actuation,
                         const std::vector<experiment::KnownLoad>& loads,
-                        const std::vector<std::string>& cable_names, robot::CableInput preferred) {
+                        const std::vector<robot::ActuatorTraits>& actuators,
+                        robot::CableInput preferred) {
   const Actuation driven = actuation.value_or(Actuation{});
-  CheckCables(driven, cable_names);
+  std::vector<std::string> cables, chambers;
+  for (const robot::ActuatorTraits& one : actuators) {
+    (one.IsChamber() ? chambers : cables).push_back(one.name);
+  }
+  experiment::CheckActuators(driven, cables, chambers);
   LoadCases cases;
-  std::vector<CableColumns> columns;
-  for (const std::string& cable : cable_names) {
-    columns.push_back(ColumnsOf(driven, cable));
-    NoteChoice(cable, columns.back(), preferred, &cases.notes);
+  std::vector<Columns> columns;
+  for (const robot::ActuatorTraits& one : actuators) {
+    columns.push_back(ColumnsOf(driven, one.name));
+    NoteChoice(one, columns.back(), preferred, &cases.notes);
   }
   for (const double t_s : actuation ? driven.t_s : TimesOf(loads)) {
     LoadCase row{t_s, {}, experiment::LoadsAt(loads, t_s)};
-    for (const CableColumns& of_cable : columns) {
-      row.cables.push_back(CommandAt(driven, of_cable, t_s, preferred));
+    for (std::size_t a = 0; a < actuators.size(); ++a) {
+      row.cables.push_back(CommandAt(driven, columns[a], actuators[a], t_s, preferred));
     }
     cases.rows.push_back(std::move(row));
   }

@@ -17,13 +17,13 @@ namespace palpate::command {
 /// One static state to compute.
 struct LoadCase {
   double t_s = 0.0;
-  std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  std::vector<robot::ActuatorCommand> cables;  ///< in the order of the robot's actuators
   std::vector<experiment::KnownLoad> loads;
 };
 
 struct LoadCases {
   std::vector<LoadCase> rows;
-  std::vector<std::string> notes;  ///< cables that are not actuated, or that have two columns
+  std::vector<std::string> notes;  ///< actuators that are not driven, or that have two columns
 };
 
 /// Reads actuation.csv; here it may also hold times alone (no cable is actuated).
@@ -31,11 +31,13 @@ struct LoadCases {
 experiment::Actuation ReadActuationRows(const std::filesystem::path& file);
 
 /// One case for each row of `actuation`; without it one for each time of `loads`; without either
-/// one under gravity alone. A cable without a column is not actuated; of one with two columns the
-/// `preferred` is prescribed; an empty field is interpolated in time within its column. Throws
-/// InputError at the header for a cable that the robot does not have (with "did you mean").
+/// one under gravity alone. A cable without a column is not actuated, a chamber is open to the air;
+/// of one with two columns the `preferred` is prescribed (of a chamber its volume is its
+/// displacement); an empty field is interpolated in time within its column. Throws InputError at
+/// the header for an actuator that the robot does not have (with "did you mean").
 LoadCases MakeLoadCases(const std::optional<experiment::Actuation>& actuation,
                         const std::vector<experiment::KnownLoad>& loads,
-                        const std::vector<std::string>& cable_names, robot::CableInput preferred);
+                        const std::vector<robot::ActuatorTraits>& actuators,
+                        robot::CableInput preferred);
 
 }  // namespace palpate::command

@@ -33,6 +33,7 @@ std::string RowFile(const char* stem, int row, const char* extension) {
 std::vector<std::string> PlannedFiles(const robot::RobotModel& model, const Extras& extras,
                                       int row_count) {
   std::vector<std::string> files = {"result.json", "cables.csv"};
+  if (model.ChamberCount() > 0) files.emplace_back("chambers.csv");
   if (!model.body().markers.empty()) files.emplace_back("markers.csv");
   if (extras.vtu) files.emplace_back("body.pvd");
   for (int row = 0; row < row_count; ++row) {
@@ -85,8 +86,8 @@ void WriteCables(const std::filesystem::path& file, const robot::RobotModel& mod
     paths_m.push_back(model.cable(c).Path_m(model.RestState().x_m));
     displacement_m.conservativeResize(3, displacement_m.cols() + now_m.cols());
     displacement_m.rightCols(now_m.cols()) = now_m - paths_m.back();
-    tension_N[c] = result.cables[At(c)].tension_N;
-    pulled_m[c] = result.cables[At(c)].displacement_m;
+    tension_N[c] = result.actuators[At(c)].tension_N;
+    pulled_m[c] = result.actuators[At(c)].displacement_m;
   }
   fem::WriteVtuLines(file, paths_m,
                      {.of_nodes = {{"displacement_m", displacement_m}},
@@ -115,7 +116,8 @@ SolveOutput::SolveOutput(std::filesystem::path folder, const robot::RobotModel& 
     : folder_(std::move(folder)),
       model_(model),
       extras_(extras),
-      cables_text_("row,cable,displacement_m,tension_N\n") {
+      cables_text_("row,cable,displacement_m,tension_N\n"),
+      chambers_text_("row,chamber,pressure_Pa,volume_m3\n") {
   markers_.names = model.MarkerNames();
   MakeRoomForResults(folder_, PlannedFiles(model, extras, row_count));
   experiment::CreateFolder(folder_);
@@ -133,7 +135,7 @@ void SolveOutput::Add(const RowResult& result) {
     if (extras_.png) Draw(result);
     AddMarkers(result);
   }
-  AddCables(result);
+  AddActuators(result);
   rows_.push_back({result.row, result.t_s, result.solver, result.time_s, result.notes});
 }
 
@@ -149,13 +151,12 @@ void SolveOutput::WriteBody(const RowResult& result) {
 void SolveOutput::Draw(const RowResult& result) {
   view::Scene scene = MakeRobotScene(model_, result.x_m);
   scene.title = fmt::format("{}, row {} (t = {:g} s)", model_.body().name, result.row, result.t_s);
-  std::string cables;
-  for (std::size_t c = 0; c < result.cables.size(); ++c) {
-    cables +=
-        fmt::format("{}{} {:.1f} mm {:.2f} N", c == 0 ? "" : ", ", model_.body().cables[c].name,
-                    1e3 * result.cables[c].displacement_m, result.cables[c].tension_N);
+  std::string actuators;
+  for (std::size_t a = 0; a < result.actuators.size(); ++a) {
+    actuators += (a == 0 ? "" : ", ") +
+                 ActuatorText(model_.traits(static_cast<int>(a)), result.actuators[a]);
   }
-  scene.caption = {cables};
+  scene.caption = {actuators};
   AddLoads(result, model_.body(), &scene);
   view::SaveScene(File(RowFile("scene", result.row, "png")), scene);
 }
@@ -169,22 +170,27 @@ void SolveOutput::AddMarkers(const RowResult& result) {
   markers_.frames.push_back(std::move(frame));
 }
 
-void SolveOutput::AddCables(const RowResult& result) {
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const auto index = static_cast<std::size_t>(c);
-    cables_text_ += std::to_string(result.row) + "," + model_.body().cables[index].name + ",";
+void SolveOutput::AddActuators(const RowResult& result) {
+  for (int a = 0; a < model_.ActuatorCount(); ++a) {
+    const robot::ActuatorTraits& traits = model_.traits(a);
+    std::string displacement, force;
     if (result.converged()) {
-      const robot::CableState& cable = result.cables[index];
-      cables_text_ += FormatNumber(cable.displacement_m) + "," + FormatNumber(cable.tension_N);
-    } else {
-      cables_text_ += ",";
+      const robot::ActuatorState& state = result.actuators[At(a)];
+      displacement = FormatNumber(traits.ReportedDisplacement(state.displacement_m));
+      force = FormatNumber(traits.ReportedForce(state.tension_N));
     }
-    cables_text_ += "\n";
+    const std::string begin = std::to_string(result.row) + "," + traits.name + ",";
+    if (traits.IsChamber()) {
+      chambers_text_ += begin + force + "," + displacement + "\n";
+    } else {
+      cables_text_ += begin + displacement + "," + force + "\n";
+    }
   }
 }
 
 void SolveOutput::WriteTables() {
   WriteFile(File("cables.csv"), cables_text_);
+  if (model_.ChamberCount() > 0) WriteFile(File("chambers.csv"), chambers_text_);
   if (!markers_.names.empty() && !markers_.frames.empty()) {
     experiment::WriteMarkers(markers_, File("markers.csv"));
   }

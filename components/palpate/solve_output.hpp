@@ -21,7 +21,9 @@ struct Extras {
 /// The folder that `palpate solve` fills. For each row that converged: nodes_0000.csv
 /// (node,x_m,y_m,z_m) and the extras. At the end: markers.csv (t_s,marker,x_m,y_m,z_m, robot frame,
 /// the frames of the rows that converged), cables.csv (row,cable,displacement_m,tension_N; the
-/// fields of a row that did not converge are empty) and result.json, which lists all files.
+/// fields of a row that did not converge are empty), chambers.csv of a robot that has any
+/// (row,chamber,pressure_Pa,volume_m3: above ambient, change from rest) and result.json, which
+/// lists all files.
 class SolveOutput {
  public:
   /// Creates the folder for `row_count` rows; replaces the results of an earlier `solve`
@@ -38,7 +40,7 @@ class SolveOutput {
 
  private:
   void AddMarkers(const RowResult& result);
-  void AddCables(const RowResult& result);
+  void AddActuators(const RowResult& result);
   void WriteBody(const RowResult& result);
   void Draw(const RowResult& result);
   void WriteTables();
@@ -57,6 +59,7 @@ class SolveOutput {
   const robot::RobotModel& model_;
   Extras extras_;
   std::string cables_text_;
+  std::string chambers_text_;
   experiment::MarkerTracks markers_;
   std::vector<RowSummary> rows_;
   std::vector<std::string> files_;

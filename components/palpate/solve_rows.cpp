@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -20,7 +21,7 @@ namespace palpate::command {
 namespace {
 
 using experiment::KnownLoad;
-using robot::CableCommand;
+using robot::ActuatorCommand;
 
 constexpr double kNotedDistance_m = 1e-3;
 
@@ -72,76 +73,103 @@ std::vector<robot::DeadLoad> DeadLoadsOf(const LoadCase& row, LoadPatches* patch
   return loads;
 }
 
-void ReadCables(const LoadCase& row, const robot::RobotModel& model, const fem::StaticState& state,
-                RowResult* result) {
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const auto index = static_cast<std::size_t>(c);
-    const robot::CableState cable = model.StateOfCable(c, state);
-    const CableCommand& command = row.cables[index];
-    if (command.kind == CableCommand::Kind::kDisplacement && cable.tension_N <= 0.0) {
-      result->notes.push_back(
-          fmt::format("cable {} is slack: {:.6g} m prescribed, the body is at {:.6g} m",
-                      model.body().cables[index].name, command.value, cable.displacement_m));
+/// "0.005 m" of a cable, "2e-06 m3" of a chamber.
+std::string DisplacementText(const robot::ActuatorTraits& traits, double displacement_m) {
+  return fmt::format("{:.6g} {}", traits.ReportedDisplacement(displacement_m),
+                     traits.displacement_unit());
+}
+
+std::string ForceText(const robot::ActuatorTraits& traits, double force_N) {
+  return fmt::format("{:.6g} {}", traits.ReportedForce(force_N), traits.force_unit());
+}
+
+void ReadActuators(const LoadCase& row, const robot::RobotModel& model,
+                   const fem::StaticState& state, RowResult* result) {
+  for (int a = 0; a < model.ActuatorCount(); ++a) {
+    const robot::ActuatorTraits& traits = model.traits(a);
+    const robot::ActuatorState reached = model.StateOfActuator(a, state);
+    const ActuatorCommand& command = row.cables[At(a)];
+    if (command.kind == ActuatorCommand::Kind::kDisplacement &&
+        reached.tension_N <= traits.least_force_N) {
+      result->notes.push_back(fmt::format("{} {}: {} prescribed, the body is at {}", traits.Title(),
+                                          traits.IsChamber() ? "is at a vacuum" : "is slack",
+                                          DisplacementText(traits, command.value),
+                                          DisplacementText(traits, reached.displacement_m)));
     }
-    result->cables.push_back(cable);
+    result->actuators.push_back(reached);
   }
 }
 
-// The cable whose tension was followed least of its way; empty where none has a prescribed one.
-std::string ExplainTensions(const LoadCase& row, const robot::RobotModel& model,
-                            const fem::StaticState& state) {
+// The actuator whose tension or pressure was followed least of its way; empty where none has a
+// prescribed one.
+std::string ExplainForces(const LoadCase& row, const robot::RobotModel& model,
+                          const fem::StaticState& state) {
   constexpr double kReached = 1.0 - 1e-6;
   double smallest_share = kReached;
   std::string explanation;
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const CableCommand& command = row.cables[At(c)];
-    if (command.kind != CableCommand::Kind::kTension || !(command.value > 0.0)) continue;
-    const double reached_N = state.multipliers_N[c];
+  for (int a = 0; a < model.ActuatorCount(); ++a) {
+    const ActuatorCommand& command = row.cables[At(a)];
+    if (command.kind != ActuatorCommand::Kind::kTension || command.value == 0.0) continue;
+    const double reached_N = state.multipliers_N[a];
     if (reached_N / command.value >= smallest_share) continue;
     smallest_share = reached_N / command.value;
-    const std::string& cable = model.body().cables[At(c)].name;
+    const robot::ActuatorTraits& traits = model.traits(a);
     explanation = fmt::format(
-        "cable {}: followed up to {:.3g} N of the {:.6g} N prescribed; near its limit a tension no "
-        "longer determines the shape: prescribe the displacement ({}.displacement_m) instead: ",
-        cable, reached_N, command.value, cable);
+        "{}: followed up to {:.3g} {} of the {} prescribed; near its limit a {} no longer "
+        "determines the shape: prescribe the {} ({}.{}) instead: ",
+        traits.Title(), traits.ReportedForce(reached_N), traits.force_unit(),
+        ForceText(traits, command.value), traits.IsChamber() ? "pressure" : "tension",
+        traits.IsChamber() ? "volume" : "displacement", traits.name,
+        traits.IsChamber() ? "volume_m3" : "displacement_m");
   }
   return explanation;
 }
 
-// Adds to a failure which cable is farthest from its prescribed displacement or tension.
+// Adds to a failure which actuator is farthest from what is prescribed.
 void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
                     const fem::StaticState& state, fem::StaticResult* result) {
   if (result->status.code() == StatusCode::kTensionLimit) {
-    return;  // names its cable already
+    return;  // names its actuator already
   }
   double largest_gap_m = 1e-6;
   std::string culprit;
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const CableCommand& command = row.cables[At(c)];
-    const double reached_m = model.StateOfCable(c, state).displacement_m;
-    if (command.kind == CableCommand::Kind::kDisplacement &&
-        command.value - reached_m > largest_gap_m) {
-      largest_gap_m = command.value - reached_m;
+  for (int a = 0; a < model.ActuatorCount(); ++a) {
+    const ActuatorCommand& command = row.cables[At(a)];
+    const robot::ActuatorTraits& traits = model.traits(a);
+    const double reached_m = model.StateOfActuator(a, state).displacement_m;
+    const double gap_m = command.value - reached_m;
+    const double missing_m = traits.IsChamber() ? std::abs(gap_m) : gap_m;
+    if (command.kind == ActuatorCommand::Kind::kDisplacement && missing_m > largest_gap_m) {
+      largest_gap_m = missing_m;
       culprit = fmt::format(
-          "cable {}: no equilibrium found beyond a displacement of {:.6g} m of "
-          "the {:.6g} m prescribed: ",
-          model.body().cables[At(c)].name, reached_m, command.value);
+          "{}: no equilibrium found beyond a {} of {} of the {} prescribed: ", traits.Title(),
+          traits.IsChamber() ? "change of volume" : "displacement",
+          DisplacementText(traits, reached_m), DisplacementText(traits, command.value));
     }
   }
-  if (culprit.empty()) culprit = ExplainTensions(row, model, state);
+  if (culprit.empty()) culprit = ExplainForces(row, model, state);
   result->status = Status(result->status.code(), culprit + result->status.message());
 }
 
-// A cable cannot be shortened by more than its length; nullopt where no cable is.
+// A cable cannot be shortened by more than its length, a chamber not be emptied of more than it
+// holds; nullopt where none is.
 std::optional<Status> RefuseImpossible(const LoadCase& row, const robot::RobotModel& model) {
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const CableCommand& command = row.cables[At(c)];
-    const double length_m = model.cable(c).rest_length_m();
-    if (command.kind == CableCommand::Kind::kDisplacement && command.value >= length_m) {
+  for (int a = 0; a < model.ActuatorCount(); ++a) {
+    const ActuatorCommand& command = row.cables[At(a)];
+    if (command.kind != ActuatorCommand::Kind::kDisplacement) continue;
+    const robot::ActuatorTraits& traits = model.traits(a);
+    const double rest_m = model.actuator(a).rest_value_m();
+    if (!traits.IsChamber() && command.value >= rest_m) {
       return Status(StatusCode::kNotConverged,
-                    fmt::format("cable {}: no equilibrium reaches a displacement of {:.6g} m: the "
-                                "cable is {:.6g} m long at rest",
-                                model.body().cables[At(c)].name, command.value, length_m));
+                    fmt::format("{}: no equilibrium reaches a displacement of {:.6g} m: the cable "
+                                "is {:.6g} m long at rest",
+                                traits.Title(), command.value, rest_m));
+    }
+    if (traits.IsChamber() && command.value <= rest_m) {
+      return Status(StatusCode::kNotConverged,
+                    fmt::format("{}: no equilibrium has lost {}: the chamber holds {} at rest",
+                                traits.Title(), DisplacementText(traits, -command.value),
+                                DisplacementText(traits, -rest_m)));
     }
   }
   return std::nullopt;
@@ -175,6 +203,15 @@ class ObserverScope {
 
 }  // namespace
 
+std::string ActuatorText(const robot::ActuatorTraits& traits, const robot::ActuatorState& state) {
+  const double displacement = traits.ReportedDisplacement(state.displacement_m);
+  const double force = traits.ReportedForce(state.tension_N);
+  if (traits.IsChamber()) {
+    return fmt::format("{} {:.1f} mm3 {:.2f} kPa", traits.name, 1e9 * displacement, 1e-3 * force);
+  }
+  return fmt::format("{} {:.3f} mm {:.3f} N", traits.name, 1e3 * displacement, force);
+}
+
 bool SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
                const std::function<void(const RowResult&)>& take, const WatchRow& watch) {
   LoadPatches patches(*model);
@@ -200,7 +237,7 @@ bool SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
     if (gave_up) return false;
     if (result.converged()) {
       result.x_m = state.x_m;
-      ReadCables(rows[i], *model, state, &result);
+      ReadActuators(rows[i], *model, state, &result);
     }
     take(result);
   }

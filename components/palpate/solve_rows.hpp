@@ -18,14 +18,17 @@ struct RowResult {
   int row = 0;
   double t_s = 0.0;
   fem::StaticResult solver;
-  double time_s = 0.0;                    ///< wall clock
-  Eigen::VectorXd x_m;                    ///< [3n]; empty where it did not converge
-  std::vector<robot::CableState> cables;  ///< empty where it did not converge
+  double time_s = 0.0;                          ///< wall clock
+  Eigen::VectorXd x_m;                          ///< [3n]; empty where it did not converge
+  std::vector<robot::ActuatorState> actuators;  ///< empty where it did not converge
   std::vector<robot::DeadLoad> loads;
-  std::vector<std::string> notes;  ///< slack cables
+  std::vector<std::string> notes;  ///< slack cables, chambers at a vacuum
 
   bool converged() const { return solver.status.ok(); }
 };
+
+/// "north 5.000 mm 1.250 N", "tip 350.0 mm3 12.00 kPa".
+std::string ActuatorText(const robot::ActuatorTraits& traits, const robot::ActuatorState& state);
 
 /// Called at the start of a row and before each of its Newton iterations with the result so far.
 /// Returns false to give the row up.

@@ -31,7 +31,7 @@ LoadCases ReadCases(const SolveOptions& options, const robot::RobotModel& model)
   if (!options.loads.empty()) {
     loads = experiment::ReadLoads(options.loads);
   }
-  return MakeLoadCases(actuation, loads, model.CableNames(), ParseCableInput(options.cable_input));
+  return MakeLoadCases(actuation, loads, model.traits(), ParseCableInput(options.cable_input));
 }
 
 std::vector<std::string> AllNotes(const LoadCases& cases, const robot::RobotModel& model) {
@@ -42,7 +42,7 @@ std::vector<std::string> AllNotes(const LoadCases& cases, const robot::RobotMode
   return notes;
 }
 
-void PrintRow(const RowResult& result, const std::vector<std::string>& cable_names) {
+void PrintRow(const RowResult& result, const std::vector<robot::ActuatorTraits>& actuators) {
   if (!result.converged()) {
     fmt::print("row {} (t = {:g} s) failed: {}: {}; {:.0f} % of the load was reached\n", result.row,
                result.t_s, ToString(result.solver.status.code()), result.solver.status.message(),
@@ -51,9 +51,8 @@ void PrintRow(const RowResult& result, const std::vector<std::string>& cable_nam
   }
   fmt::print("row {} (t = {:g} s)  {} iterations, residual {:.1e} N, {:.0f} ms", result.row,
              result.t_s, result.solver.iterations, result.solver.residual_N, 1e3 * result.time_s);
-  for (std::size_t c = 0; c < cable_names.size(); ++c) {
-    fmt::print("  {} {:.3f} mm {:.3f} N", cable_names[c], 1e3 * result.cables[c].displacement_m,
-               result.cables[c].tension_N);
+  for (std::size_t a = 0; a < actuators.size(); ++a) {
+    fmt::print("  {}", ActuatorText(actuators[a], result.actuators[a]));
   }
   fmt::print("\n");
   for (const std::string& note : result.notes) {
@@ -69,7 +68,7 @@ std::string WordsOfRow(int row, const fem::StaticResult& so_far) {
 void PrintResult(const SolveOptions& options, const robot::RobotModel& model,
                  const RowResult& result) {
   if (!options.json) {
-    PrintRow(result, model.CableNames());
+    PrintRow(result, model.traits());
   } else if (!result.converged()) {
     fmt::print(stderr, "palpate solve: row {}: {}\n", result.row, result.solver.status.message());
   }
@@ -121,14 +120,14 @@ int Solve(const SolveOptions& options) {
 }
 
 app::Verb SolveVerb() {
-  return {"solve", "Compute static equilibria of a robot under cables, loads and gravity",
+  return {"solve", "Compute static equilibria of a robot under cables, chambers, loads and gravity",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<SolveOptions>();
             DeclareRobot(arguments, &options->robot);
             arguments.Option("--actuation", &options->actuation,
                              "CSV file with the columns t_s and CABLE.displacement_m or "
-                             "CABLE.tension_N; each row is one static state; without it no cable "
-                             "is actuated");
+                             "CABLE.tension_N, CHAMBER.pressure_Pa or CHAMBER.volume_m3; each row "
+                             "is one static state; without it nothing is actuated");
             arguments.Option("--loads", &options->loads,
                              "CSV file with the columns t_s, x_m, y_m, z_m, fx_N, fy_N, fz_N and "
                              "optionally patch_radius_m; a row holds until the next one; without "

@@ -14,7 +14,7 @@ namespace palpate::player {
 
 namespace {
 
-using experiment::CableQuantity;
+using experiment::ActuatorQuantity;
 using experiment::MeasurementFrame;
 using experiment::Recording;
 
@@ -52,12 +52,12 @@ std::vector<double> TimesOfImages(const experiment::RgbdSequence& sequence) {
 std::vector<CableInput> CablesAt(const Recording& recording, double t_s) {
   std::vector<CableInput> cables;
   if (!recording.actuation) return cables;
-  for (const experiment::CableColumn& column : recording.actuation->columns) {
+  for (const experiment::ActuatorColumn& column : recording.actuation->columns) {
     auto input = std::find_if(cables.begin(), cables.end(),
                               [&](const CableInput& known) { return known.cable == column.cable; });
     if (input == cables.end()) input = cables.insert(input, {column.cable, {}, {}});
-    auto& value =
-        column.quantity == CableQuantity::kDisplacement ? input->displacement_m : input->tension_N;
+    auto& value = column.quantity == ActuatorQuantity::kDisplacement ? input->displacement_m
+                                                                     : input->tension_N;
     value = recording.actuation->ValueAt(column, t_s);
   }
   return cables;

@@ -65,9 +65,10 @@ Bench::Bench(const robot::RobotDescription& robot, const scenario::Scenario& sce
       base_(body_, effects),
       actuators_(body_.cables, effects),
       cables_(body_, effects),
+      chambers_(body_),
       surface_(body_.mesh, body_.boundary, body_.fixed),
       contacts_(MakeContacts(body_, surface_, tools_, effects)),
-      solver_({elastic_, mass_, viscosity_, cables_, surface_, contacts_,
+      solver_({elastic_, mass_, viscosity_, cables_, chambers_, surface_, contacts_,
                IsDynamic(motion_) ? motion_.rayleigh_mass_1_s : 0.0},
               body_.fixed, threads) {
   const std::vector<Eigen::Isometry3d> poses = ObstaclePoses(body_, surface_, effects);
@@ -79,12 +80,13 @@ void Bench::ForgetHistory() {
   const Eigen::VectorXd rest_m = body_.rest_m();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(rest_m.size());
   state_ = {rest_m, zero, zero};
-  now_ = {Eigen::VectorXd::Zero(cables_.CableCount()), {}, zero};
+  now_ = {Eigen::VectorXd::Zero(CommandCount()), {}, zero};
   now_.pose.resize(tools_.size());
   started_ = false;
   base_.Reset();
   cables_.Reset();
   cables_.Evaluate(state_.x_m);
+  chambers_.SetPressures(OfChambers(now_.command_m));
   for (Contact& contact : contacts_) contact.Reset();
   viscosity_.Reset(body_.materials, softening_.factor_of_cell(), state_.x_m);
   softening_.Reset(&elastic_, state_.x_m);
@@ -117,6 +119,7 @@ void Bench::PlaceTools(const BenchInputs& inputs) {
 
 Status Bench::Balance(const BenchInputs& inputs, double share) {
   cables_.SetPulledIn(share * actuators_.pulled_in_m());
+  chambers_.SetPressures(share * OfChambers(inputs.command_m));
   StepTask task{TimeScheme::QuasiStatic(1.0), share * inputs.load_N, state_.x_m};
   base_.Apply(&task.start_m);
   const Eigen::VectorXd tension_N = cables_.tension_N();
@@ -175,7 +178,7 @@ void Bench::BeginHistory(const BenchInputs& inputs) {
 
 Status Bench::Start(double t_s, const Inputs& inputs) {
   if (!std::isfinite(t_s)) return {StatusCode::kInvalidInput, "the time is not finite"};
-  if (Status status = CheckInputs(inputs, cables_.CableCount(), all_tools_); !status.ok()) {
+  if (Status status = CheckInputs(inputs, CommandCount(), all_tools_); !status.ok()) {
     return status;
   }
   ForgetHistory();
@@ -183,7 +186,7 @@ Status Bench::Start(double t_s, const Inputs& inputs) {
   begin_s_ = t_s;
   point_loads_ = loads_.PointLoads(inputs.weights, inputs.base_tilt_deg);
   const BenchInputs first = Prepare(inputs, point_loads_);
-  actuators_.Reset(t_s, first.command_m);
+  actuators_.Reset(t_s, OfCables(first.command_m));
   PlaceTools(first);
   cables_.SetFrictionless(true);
   for (Contact& contact : contacts_) contact.SetFrictionless(true);
@@ -216,7 +219,7 @@ Status Bench::Advance(double t_s, const Inputs& inputs) {
   if (!std::isfinite(t_s) || !(t_s > time_s_)) {
     return {StatusCode::kInvalidInput, "time must rise"};
   }
-  if (Status status = CheckInputs(inputs, cables_.CableCount(), all_tools_); !status.ok()) {
+  if (Status status = CheckInputs(inputs, CommandCount(), all_tools_); !status.ok()) {
     return status;
   }
   std::vector<PointLoad> loads = loads_.PointLoads(inputs.weights, inputs.base_tilt_deg);
@@ -259,8 +262,9 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
                 .load_N = {},
                 .start_m = {}};
   const double balance_s = task.scheme.balance_s();
-  actuators_.Propose(t_s, inputs.command_m);
+  actuators_.Propose(t_s, OfCables(inputs.command_m));
   cables_.SetPulledIn(actuators_.pulled_in_m());
+  chambers_.SetPressures(OfChambers(inputs.command_m));
   PlaceTools(inputs);
   viscosity_.Prepare(balance_s);
   task.load_N = now_.load_N + balance_s / h_s * (inputs.load_N - now_.load_N);
@@ -284,6 +288,7 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
     softening_.Restore(&elastic_);
     cables_.SetTensions(tension_N);
     cables_.Evaluate(state_.x_m);
+    chambers_.SetPressures(OfChambers(now_.command_m));
     PlaceTools(now_);
     for (Contact& contact : contacts_) contact.Evaluate(surface_, state_.x_m);
     return status;

@@ -42,10 +42,12 @@ class Bench {
   const BenchBody& body() const { return body_; }
   const MotionState& state() const { return state_; }
   const CableSystem& cable_system() const { return cables_; }
+  const ChamberSystem& chamber_system() const { return chambers_; }
   const ActuatorChain& actuators() const { return actuators_; }
   const ContactSurface& surface() const { return surface_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
-  const Eigen::VectorXd& command_m() const { return now_.command_m; }  ///< [actuators]
+  /// [cables, then chambers] m, Pa
+  const Eigen::VectorXd& command_m() const { return now_.command_m; }
   const std::vector<PointLoad>& point_loads() const { return point_loads_; }
   const StepCost& cost() const { return solver_.cost(); }
   /// Of the body on its clamp, as the last step left it.
@@ -66,6 +68,13 @@ class Bench {
   /// One step to `t_s`, halved where it fails.
   Status StepTo(double t_s, const BenchInputs& inputs, int halvings_left);
   Status Step(double t_s, const BenchInputs& inputs);
+  int CommandCount() const { return cables_.CableCount() + chambers_.ChamberCount(); }
+  Eigen::VectorXd OfCables(const Eigen::VectorXd& command) const {
+    return command.head(cables_.CableCount());
+  }
+  Eigen::VectorXd OfChambers(const Eigen::VectorXd& command) const {
+    return command.tail(chambers_.ChamberCount());
+  }
   bool IsTouched() const;
   Status FollowSoftening(StepTask* task);
   void Commit(double t_s, const BenchInputs& inputs, double h_s);
@@ -82,6 +91,7 @@ class Bench {
   CompliantBase base_;
   ActuatorChain actuators_;
   CableSystem cables_;
+  ChamberSystem chambers_;
   ContactSurface surface_;
   std::vector<Contact> contacts_;
   std::vector<Eigen::Isometry3d> obstacle_poses_;

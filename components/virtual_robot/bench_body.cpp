@@ -16,7 +16,10 @@
 #include "libs/fem/kernels/kernel.hpp"
 #include "libs/fem/refined_mesh.hpp"
 #include "libs/fem/shape_functions.hpp"
+#include "libs/geometry/box.hpp"
+#include "libs/geometry/closest_point.hpp"
 #include "libs/robot/body_mesh.hpp"
+#include "libs/robot/chamber_wall.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -106,6 +109,38 @@ fem::TetMesh Corners(const fem::TetMesh& mesh) {
   return corners;
 }
 
+/// The wall on a finer mesh: faces of its boundary that lie on the wall. The triangles of a surface
+/// file stay as they are.
+fem::MovingSurface FinerWall(const fem::MovingSurface& wall, const fem::TetMesh& coarse,
+                             const fem::PointLocator& locator) {
+  const Eigen::VectorXd rest_m = coarse.nodes_m.reshaped();
+  const bool is_of_mesh =
+      std::all_of(wall.points.begin(), wall.points.end(),
+                  [](const fem::InterpolationWeights& point) { return point.nodes.size() == 1; });
+  if (!is_of_mesh) {
+    fem::MovingSurface moved = wall;
+    for (fem::InterpolationWeights& point : moved.points) {
+      point = locator.Embed(point.Position(rest_m)).weights;
+    }
+    return moved;
+  }
+  geometry::TriangleSurface flat{Eigen::Matrix3Xd(3, std::ssize(wall.points)),
+                                 wall.faces.topRows<3>()};
+  for (std::size_t p = 0; p < wall.points.size(); ++p) {
+    flat.vertices_m.col(ToIndex(p)) = wall.points[p].Position(rest_m);
+  }
+  const geometry::SurfaceIndex index(flat);
+  const double same_m = 1e-9 * geometry::BoundingBox(coarse.nodes_m).Diagonal_m();
+  const Eigen::MatrixXi& all = locator.boundary().faces;
+  std::vector<int> faces;
+  for (int face = 0; face < all.cols(); ++face) {
+    Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) middle_m += locator.mesh().nodes_m.col(all(k, face)) / 3.0;
+    if (index.Closest(middle_m).distance_m < same_m) faces.push_back(face);
+  }
+  return robot::WallOfFaces(locator.boundary(), faces);
+}
+
 /// Cuts the cells, and puts cables, markers and supports on the finer mesh.
 void Refine(const robot::RobotDescription& robot, int times, robot::RobotBody* body) {
   fem::TetMesh mesh = Corners(body->mesh);
@@ -119,7 +154,8 @@ void Refine(const robot::RobotDescription& robot, int times, robot::RobotBody* b
   }
   if (robot.element == fem::ElementType::kTet10) mesh = fem::MakeQuadratic(mesh);
   std::vector<bool> all_used(static_cast<size_t>(mesh.NodeCount()), true);
-  body->fixed = robot::HoldNodes(robot, {mesh, body->mesh_hash, std::move(all_used)}, &body->notes);
+  body->fixed =
+      robot::HoldNodes(robot, {mesh, body->mesh_hash, std::move(all_used), {}}, &body->notes);
   const fem::PointLocator locator(mesh);
   for (size_t c = 0; c < body->cables.size(); ++c) {
     const robot::CableSettings& settings = robot.cables[c];
@@ -130,6 +166,9 @@ void Refine(const robot::RobotDescription& robot, int times, robot::RobotBody* b
   }
   for (robot::BodyMarker& marker : body->markers) {
     marker.point = locator.Embed(marker.point.rest_m);
+  }
+  for (robot::BodyChamber& chamber : body->chambers) {
+    chamber.wall = FinerWall(chamber.wall, body->mesh, locator);
   }
   body->boundary = locator.boundary();
   body->mesh = std::move(mesh);
@@ -186,6 +225,7 @@ BenchBody MakeBenchBody(const robot::RobotDescription& robot, const scenario::Bo
   body.fixed = std::move(made.fixed);
   body.gravity_m_s2 = made.gravity_m_s2;
   body.cables = std::move(made.cables);
+  body.chambers = std::move(made.chambers);
   body.markers = std::move(made.markers);
   ApplyMaterialEffects(effects, &body);
   for (fem::Material& material : body.materials) {

@@ -60,15 +60,13 @@ BenchInputs Between(const BenchInputs& from, const BenchInputs& to, double fract
   return between;
 }
 
-Status CheckInputs(const Inputs& inputs, int cables, const std::vector<scenario::Tool>& tools) {
-  if (inputs.displacement_m.size() != cables) {
+Status CheckInputs(const Inputs& inputs, int actuators, const std::vector<scenario::Tool>& tools) {
+  if (inputs.displacement_m.size() != actuators) {
     return Refused(std::to_string(inputs.displacement_m.size()) +
-                   " cable commands are given, the robot has " + std::to_string(cables) +
-                   " cables");
+                   " commands are given, the robot has " + std::to_string(actuators) +
+                   " cables and chambers");
   }
-  if (inputs.displacement_m.array().isInf().any()) {
-    return Refused("a cable command is infinite");
-  }
+  if (inputs.displacement_m.array().isInf().any()) return Refused("a command is infinite");
   if (!inputs.base_tilt_deg.allFinite()) return Refused("the tilt of the base is not finite");
   for (const scenario::HungWeight& weight : inputs.weights) {
     if (!weight.position_m.allFinite() || !std::isfinite(weight.mass_kg) ||

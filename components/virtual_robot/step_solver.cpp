@@ -15,6 +15,8 @@ fem::NodePairs AllPairs(const Forces& forces) {
   fem::NodePairs pairs = forces.elastic.CoupledPairs();
   const fem::NodePairs of_cables = forces.cables.CoupledPairs();
   pairs.insert(pairs.end(), of_cables.begin(), of_cables.end());
+  const fem::NodePairs of_chambers = forces.chambers.CoupledPairs();
+  pairs.insert(pairs.end(), of_chambers.begin(), of_chambers.end());
   return pairs;
 }
 
@@ -57,6 +59,7 @@ StepSolver::StepSolver(const Forces& forces, const fem::FixedDirections& fixed, 
   forces_.mass.BindTo(matrix_);
   forces_.viscosity.BindTo(matrix_);
   forces_.cables.BindTo(matrix_);
+  forces_.chambers.BindTo(matrix_);
   solver_->KeepSinglePrecision();  // each correction is followed by the balance that it leads to
   const int pieces = forces_.cables.PieceCount();
   nodal_ = Eigen::VectorXd::Zero(3 * fixed.cols());
@@ -120,10 +123,11 @@ Status StepSolver::Balance(const StepTask& task, const MotionState& from, Motion
   }
   forces_.cables.Evaluate(to->x_m);
   forces_.cables.AddForces(1.0, nodal_);
-  return with_tangent ? Factorise(task) : Status::Ok();
+  forces_.chambers.AddForces(to->x_m, nodal_);
+  return with_tangent ? Factorise(task, to->x_m) : Status::Ok();
 }
 
-Status StepSolver::Factorise(const StepTask& task) {
+Status StepSolver::Factorise(const StepTask& task, const Eigen::VectorXd& x_m) {
   const TimeScheme& scheme = task.scheme;
   const double scale = scheme.PositionRate() * forces_.viscosity.scale();
   for (double& value : matrix_.Values()) value *= scale;
@@ -139,6 +143,7 @@ Status StepSolver::Factorise(const StepTask& task) {
     contact.Remember();
   }
   forces_.cables.AddCurvature(matrix_);
+  forces_.chambers.AddCurvature(x_m, matrix_);
   matrix_.FixSingleDirections();
   has_factor_ = false;
   if (Status status = FactoriseShifted(); !status.ok()) return status;

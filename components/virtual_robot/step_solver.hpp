@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/virtual_robot/cable_system.hpp"
+#include "components/virtual_robot/chamber_system.hpp"
 #include "components/virtual_robot/contact.hpp"
 #include "components/virtual_robot/contact_surface.hpp"
 #include "components/virtual_robot/time_scheme.hpp"
@@ -29,6 +30,7 @@ struct Forces {
   fem::NodeMatrix& mass;
   fem::Viscosity& viscosity;
   CableSystem& cables;
+  ChamberSystem& chambers;
   const ContactSurface& surface;
   std::vector<Contact>& contacts;
   double mass_damping_1_s = 0.0;
@@ -86,7 +88,7 @@ class StepSolver {
   void Finish(const StepTask& task, const MotionState& from, MotionState* to);
   void AddInertia(const StepTask& task, const MotionState& from, MotionState* to);
   void AddEnergyCorrection(const MotionState& from, const MotionState& to);
-  Status Factorise(const StepTask& task);
+  Status Factorise(const StepTask& task, const Eigen::VectorXd& x_m);
   Status FactoriseShifted();
   /// Newton's correction of positions and tensions; false where the cables' laws are not met.
   bool Correct();

@@ -4,6 +4,7 @@
 #include "components/virtual_robot/truth.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -31,7 +32,8 @@ Eigen::Vector3d Direction(std::mt19937_64* engine) {
 Truth::Truth(const Bench& bench, const Effects& effects, std::uint64_t seed)
     : bench_(bench),
       rest_surface_(fem::RestSurface(bench.body().mesh, bench.body().boundary)),
-      readings_(static_cast<size_t>(bench.cable_system().CableCount())) {
+      readings_(static_cast<size_t>(bench.cable_system().CableCount() +
+                                    bench.chamber_system().ChamberCount())) {
   for (const robot::BodyMarker& marker : bench.body().markers) {
     markers_.push_back(marker.point.weights);
   }
@@ -48,7 +50,15 @@ Truth::Truth(const Bench& bench, const Effects& effects, std::uint64_t seed)
 }
 
 void Truth::Update() {
-  for (size_t actuator = 0; actuator < readings_.size(); ++actuator) {
+  const ChamberSystem& chambers = bench_.chamber_system();
+  const auto cables = At(bench_.cable_system().CableCount());
+  for (int c = 0; c < chambers.ChamberCount(); ++c) {
+    const bool driven = !std::isnan(bench_.command_m()[ToIndex(cables) + c]);
+    readings_[cables + At(c)] = {driven ? chambers.Change_m3(c, bench_.state().x_m)
+                                        : std::numeric_limits<double>::quiet_NaN(),
+                                 chambers.pressure_Pa()[c]};
+  }
+  for (size_t actuator = 0; actuator < cables; ++actuator) {
     const int cable = bench_.actuators().CableOfActuator(static_cast<int>(actuator));
     readings_[actuator] = {bench_.command_m()[ToIndex(actuator)],
                            bench_.cable_system().DriveTension_N(cable)};

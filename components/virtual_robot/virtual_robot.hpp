@@ -25,8 +25,9 @@ using Inputs = scenario::BenchInputs;
 
 /// Readings of the actuators, published as /robot/joint_states.
 struct CableReading {
-  double displacement_m = 0.0;  ///< at the actuator, as it reads
-  double tension_N = 0.0;       ///< at the actuator
+  /// At the actuator, as it reads; of a chamber its change of volume, m3 (NaN: it is not driven).
+  double displacement_m = 0.0;
+  double tension_N = 0.0;  ///< at the actuator; of a chamber its pressure above ambient, Pa
 };
 
 /// A force on the robot that an estimator is to find.
@@ -67,8 +68,8 @@ class VirtualRobot {
   const fem::TetMesh& mesh() const;  ///< at rest, as the bench has it
   const fem::BoundarySurface& boundary() const;
   const std::string& mesh_hash() const;
-  const Eigen::VectorXd& positions_m() const;  ///< [3n] robot frame
-  const std::vector<CableReading>& cables() const;
+  const Eigen::VectorXd& positions_m() const;       ///< [3n] robot frame
+  const std::vector<CableReading>& cables() const;  ///< then those of the chambers
   std::vector<TrueForce> forces() const;
   /// Where the robot's markers are (with marker_misplacement, without noise), robot frame.
   Eigen::Matrix3Xd MarkerPositions_m() const;

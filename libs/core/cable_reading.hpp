@@ -9,7 +9,8 @@
 
 namespace palpate {
 
-/// What is known of each of the robot's cables at one time.
+/// What is known of each of the robot's actuators at one time. Of a chamber volume and pressure
+/// stand for displacement and tension until robot::ToPistons.
 struct CableReading {
   struct Inputs {
     std::optional<double> displacement_m;  ///< as the actuator reports it

@@ -4,12 +4,14 @@
 #include "libs/experiment/actuation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "libs/core/check.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/csv_columns.hpp"
 #include "libs/experiment/csv_table.hpp"
@@ -19,58 +21,86 @@ namespace palpate::experiment {
 namespace {
 
 constexpr double kLargestDisplacement_m = 2.0;
+constexpr double kLargestVolume_m3 = 0.1;
+constexpr double kVacuum_Pa = -101325.0;
 constexpr const char* kDisplacementSuffix = ".displacement_m";
 constexpr const char* kTensionSuffix = ".tension_N";
+constexpr const char* kVolumeSuffix = ".volume_m3";
+constexpr const char* kPressureSuffix = ".pressure_Pa";
+constexpr const char* kExpected =
+    "expected <cable>.displacement_m, <cable>.tension_N, <chamber>.pressure_Pa or "
+    "<chamber>.volume_m3";
 
-// Cable and quantity of a header field; throws where it names neither quantity or another unit.
-CableColumn ParseHeaderField(const CsvTable& table, std::size_t index) {
+struct Suffix {
+  const char* text;
+  ActuatorQuantity quantity;
+  bool of_chamber;
+};
+
+constexpr std::array kSuffixes{Suffix{kDisplacementSuffix, ActuatorQuantity::kDisplacement, false},
+                               Suffix{kTensionSuffix, ActuatorQuantity::kTension, false},
+                               Suffix{kVolumeSuffix, ActuatorQuantity::kDisplacement, true},
+                               Suffix{kPressureSuffix, ActuatorQuantity::kTension, true}};
+
+// Actuator and quantity of a header field; throws where it names no quantity or another unit.
+ActuatorColumn ParseHeaderField(const CsvTable& table, std::size_t index) {
   const std::string& name = table.header()[index];
   const std::size_t dot = name.rfind('.');
-  CableColumn column;
+  ActuatorColumn column;
   column.where = table.HeaderWhere(index);
   if (dot == 0 || dot == std::string::npos) {
-    throw InputError(column.where, "unknown column '" + name +
-                                       "'; expected t_s, <cable>.displacement_m or "
-                                       "<cable>.tension_N");
+    throw InputError(column.where, "unknown column '" + name + "'; expected t_s, or " +
+                                       std::string(kExpected).substr(9));
   }
   column.cable = name.substr(0, dot);
   const std::string suffix = name.substr(dot);
-  if (suffix == kDisplacementSuffix) return column;
-  column.quantity = CableQuantity::kTension;
-  if (suffix == kTensionSuffix) return column;
-
-  const ColumnName quantity = SplitUnit(suffix);
-  if (quantity.stem == ".displacement") {
-    RefuseUnit(table, index, column.cable + kDisplacementSuffix);
+  std::vector<std::string> possible;
+  for (const Suffix& known : kSuffixes) {
+    column.quantity = known.quantity;
+    column.of_chamber = known.of_chamber;
+    if (suffix == known.text) return column;
+    if (SplitUnit(suffix).stem == SplitUnit(known.text).stem) {
+      RefuseUnit(table, index, column.cable + known.text);
+    }
+    possible.push_back(column.cable + known.text);
   }
-  if (quantity.stem == ".tension") RefuseUnit(table, index, column.cable + kTensionSuffix);
-  throw InputError(column.where, "unknown column '" + name + "'" +
-                                     DidYouMean(name, {column.cable + kDisplacementSuffix,
-                                                       column.cable + kTensionSuffix}) +
-                                     "; expected <cable>.displacement_m or <cable>.tension_N");
+  throw InputError(column.where,
+                   "unknown column '" + name + "'" + DidYouMean(name, possible) + "; " + kExpected);
 }
 
-void CheckSample(const CsvTable& table, std::size_t row, std::size_t index, CableQuantity quantity,
-                 double value) {
-  if (quantity == CableQuantity::kTension && value < 0.0) {
+void CheckSample(const CsvTable& table, std::size_t row, std::size_t index,
+                 const ActuatorColumn& column, double value) {
+  const bool is_force = column.quantity == ActuatorQuantity::kTension;
+  if (is_force && !column.of_chamber && value < 0.0) {
     table.Refuse(row, index, "a tension is never negative (a cable cannot push)");
   }
-  if (quantity == CableQuantity::kDisplacement && std::abs(value) > kLargestDisplacement_m) {
+  if (is_force && column.of_chamber && value < kVacuum_Pa) {
+    table.Refuse(row, index,
+                 "below a vacuum: pressures count from ambient, the lowest is " +
+                     FormatNumber(kVacuum_Pa) + " Pa");
+  }
+  if (is_force) return;
+  if (!column.of_chamber && std::abs(value) > kLargestDisplacement_m) {
     table.Refuse(row, index,
                  "more than " + FormatNumber(kLargestDisplacement_m) +
                      " m; metres are expected, are these millimetres?");
   }
+  if (column.of_chamber && std::abs(value) > kLargestVolume_m3) {
+    table.Refuse(row, index,
+                 "more than " + FormatNumber(kLargestVolume_m3) +
+                     " m3; cubic metres are expected, are these millilitres?");
+  }
 }
 
 /// nullopt where every field is empty: it was not measured.
-std::optional<CableColumn> ReadColumn(const CsvTable& table, std::size_t index) {
-  CableColumn column = ParseHeaderField(table, index);
+std::optional<ActuatorColumn> ReadColumn(const CsvTable& table, std::size_t index) {
+  ActuatorColumn column = ParseHeaderField(table, index);
   column.samples.reserve(table.rows());
   bool any = false;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     column.samples.push_back(table.OptionalNumber(row, index));
     if (!column.samples.back()) continue;
-    CheckSample(table, row, index, column.quantity, *column.samples.back());
+    CheckSample(table, row, index, column, *column.samples.back());
     any = true;
   }
   if (!any) return std::nullopt;
@@ -79,18 +109,22 @@ std::optional<CableColumn> ReadColumn(const CsvTable& table, std::size_t index) 
 
 }  // namespace
 
-std::string CableColumn::Header() const {
-  return cable + (quantity == CableQuantity::kDisplacement ? kDisplacementSuffix : kTensionSuffix);
+std::string ActuatorColumn::Header() const {
+  const auto suffix = std::find_if(kSuffixes.begin(), kSuffixes.end(), [&](const Suffix& one) {
+    return one.quantity == quantity && one.of_chamber == of_chamber;
+  });
+  return cable + suffix->text;
 }
 
-const CableColumn* Actuation::Find(const std::string& cable, CableQuantity quantity) const {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const CableColumn& column) {
-    return column.cable == cable && column.quantity == quantity;
-  });
+const ActuatorColumn* Actuation::Find(const std::string& cable, ActuatorQuantity quantity) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const ActuatorColumn& column) {
+        return column.cable == cable && column.quantity == quantity;
+      });
   return found == columns.end() ? nullptr : &*found;
 }
 
-double Actuation::ValueAt(const CableColumn& column, double t_s_now) const {
+double Actuation::ValueAt(const ActuatorColumn& column, double t_s_now) const {
   PALPATE_CHECK(column.samples.size() == t_s.size(), column.samples.size(), t_s.size());
   const auto upper = std::upper_bound(t_s.begin(), t_s.end(), t_s_now);
   const auto split = static_cast<std::size_t>(upper - t_s.begin());
@@ -112,7 +146,8 @@ Actuation ReadActuation(const std::filesystem::path& file) {
   if (time == header.end()) ColumnFinder(table).Require("t_s");
   const auto time_index = static_cast<std::size_t>(time - header.begin());
   if (table.rows() == 0) throw InputError(SourceLocation{table.file(), 2, 1}, "no row of samples");
-  if (header.size() == 1) throw InputError(table.HeaderWhere(0), "no column for a cable");
+  if (header.size() == 1)
+    throw InputError(table.HeaderWhere(0), "no column for a cable or a chamber");
 
   Actuation actuation;
   actuation.t_s.reserve(table.rows());
@@ -126,13 +161,33 @@ Actuation ReadActuation(const std::filesystem::path& file) {
   return actuation;
 }
 
+void CheckActuators(const Actuation& actuation, const std::vector<std::string>& cables,
+                    const std::vector<std::string>& chambers) {
+  for (const ActuatorColumn& column : actuation.columns) {
+    const std::vector<std::string>& names = column.of_chamber ? chambers : cables;
+    if (IndexOf(column.cable, names)) continue;
+    const std::vector<std::string>& others = column.of_chamber ? cables : chambers;
+    const std::string kind = column.of_chamber ? "chamber" : "cable";
+    if (IndexOf(column.cable, others)) {
+      throw InputError(column.where,
+                       "'" + column.cable + "' is no " + kind + " of the robot; its columns are " +
+                           column.cable +
+                           (column.of_chamber ? kDisplacementSuffix : kPressureSuffix) + " and " +
+                           column.cable + (column.of_chamber ? kTensionSuffix : kVolumeSuffix));
+    }
+    throw InputError(column.where, "the robot has no " + kind + " '" + column.cable + "'" +
+                                       DidYouMean(column.cable, names) + "; it has " +
+                                       (names.empty() ? "none" : Listed(names)));
+  }
+}
+
 void WriteActuation(const Actuation& actuation, const std::filesystem::path& file) {
   std::string text = "t_s";
-  for (const CableColumn& column : actuation.columns) text += "," + column.Header();
+  for (const ActuatorColumn& column : actuation.columns) text += "," + column.Header();
   text += '\n';
   for (std::size_t row = 0; row < actuation.t_s.size(); ++row) {
     text += FormatNumber(actuation.t_s[row]);
-    for (const CableColumn& column : actuation.columns) {
+    for (const ActuatorColumn& column : actuation.columns) {
       text += ',';
       if (column.samples[row]) text += FormatNumber(*column.samples[row]);
     }

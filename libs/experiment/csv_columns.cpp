@@ -19,15 +19,25 @@ struct KnownUnit {
 };
 
 constexpr std::array kUnits = {
-    KnownUnit{"m", "m", 1.0},       KnownUnit{"mm", "m", 1e-3}, KnownUnit{"cm", "m", 1e-2},
-    KnownUnit{"um", "m", 1e-6},     KnownUnit{"km", "m", 1e3},  KnownUnit{"in", "m", 0.0254},
-    KnownUnit{"inch", "m", 0.0254}, KnownUnit{"N", "N", 1.0},   KnownUnit{"mN", "N", 1e-3},
-    KnownUnit{"kN", "N", 1e3},      KnownUnit{"s", "s", 1.0},   KnownUnit{"ms", "s", 1e-3},
+    KnownUnit{"m", "m", 1.0},       KnownUnit{"mm", "m", 1e-3},
+    KnownUnit{"cm", "m", 1e-2},     KnownUnit{"um", "m", 1e-6},
+    KnownUnit{"km", "m", 1e3},      KnownUnit{"in", "m", 0.0254},
+    KnownUnit{"inch", "m", 0.0254}, KnownUnit{"N", "N", 1.0},
+    KnownUnit{"mN", "N", 1e-3},     KnownUnit{"kN", "N", 1e3},
+    KnownUnit{"s", "s", 1.0},       KnownUnit{"ms", "s", 1e-3},
     KnownUnit{"us", "s", 1e-6},     KnownUnit{"ns", "s", 1e-9},
+    KnownUnit{"Pa", "Pa", 1.0},     KnownUnit{"kPa", "Pa", 1e3},
+    KnownUnit{"MPa", "Pa", 1e6},    KnownUnit{"mbar", "Pa", 100.0},
+    KnownUnit{"bar", "Pa", 1e5},    KnownUnit{"psi", "Pa", 6894.757293168},
+    KnownUnit{"m3", "m3", 1.0},     KnownUnit{"cm3", "m3", 1e-6},
+    KnownUnit{"mm3", "m3", 1e-9},   KnownUnit{"ml", "m3", 1e-6},
+    KnownUnit{"l", "m3", 1e-3},
 };
 
 std::string NameOfSi(const std::string& si) {
   if (si == "m") return "metres";
+  if (si == "Pa") return "pascals";
+  if (si == "m3") return "cubic metres";
   return si == "N" ? "newtons" : "seconds";
 }
 

@@ -99,11 +99,9 @@ void CheckMarkers(const Recording& recording, const std::vector<std::string>& na
   }
 }
 
-void CheckCables(const Recording& recording, const std::vector<std::string>& names) {
-  if (!recording.actuation) return;
-  for (const CableColumn& column : recording.actuation->columns) {
-    CheckName(column.cable, column.where, "cable", names);
-  }
+void CheckActuators(const Recording& recording, const std::vector<std::string>& cables,
+                    const std::vector<std::string>& chambers) {
+  if (recording.actuation) CheckActuators(*recording.actuation, cables, chambers);
 }
 
 }  // namespace palpate::experiment

@@ -97,10 +97,12 @@ struct Recording {
 /// is fixed to the base, is R' g.
 Eigen::Matrix3d BaseRotation(const Recording& recording);
 
-/// Refuses markers, or cables, that the robot does not have: InputError with file:line and "did you
-/// mean". `names` are the robot's; points without a name (IsUnlabelled) are passed over.
+/// Refuses markers, or cables and chambers, that the robot does not have: InputError with file:line
+/// and "did you mean". `names` are the robot's; points without a name (IsUnlabelled) are passed
+/// over.
 void CheckMarkers(const Recording& recording, const std::vector<std::string>& names);
-void CheckCables(const Recording& recording, const std::vector<std::string>& names);
+void CheckActuators(const Recording& recording, const std::vector<std::string>& cables,
+                    const std::vector<std::string>& chambers);
 
 /// Reads one recording folder. Throws InputError (file:line:column) at the first thing that is
 /// wrong, so that nothing is ever half-read.

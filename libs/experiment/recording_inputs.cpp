@@ -25,10 +25,10 @@ Eigen::Isometry3d RequireRobotFromMarkers(const Experiment& experiment,
   return std::get<Eigen::Isometry3d>(pose);
 }
 
-std::optional<double> CableInputAt(const Recording& recording, const std::string& cable,
-                                   CableQuantity quantity, double t_s) {
+std::optional<double> ActuatorInputAt(const Recording& recording, const std::string& cable,
+                                      ActuatorQuantity quantity, double t_s) {
   if (!recording.actuation) return std::nullopt;
-  const CableColumn* column = recording.actuation->Find(cable, quantity);
+  const ActuatorColumn* column = recording.actuation->Find(cable, quantity);
   if (column == nullptr) return std::nullopt;
   return recording.actuation->ValueAt(*column, t_s);
 }

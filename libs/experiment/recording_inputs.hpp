@@ -18,9 +18,9 @@ const MarkerTracks& RequireMarkers(const Recording& recording);
 /// unknown.
 Eigen::Isometry3d RequireRobotFromMarkers(const Experiment& experiment, const Recording& recording);
 
-/// The input of a cable at time `t_s` (Actuation::ValueAt), m or N; nullopt where the recording has
-/// no such column.
-std::optional<double> CableInputAt(const Recording& recording, const std::string& cable,
-                                   CableQuantity quantity, double t_s);
+/// The input of an actuator at time `t_s` (Actuation::ValueAt), in the unit of its column; nullopt
+/// where the recording has no such column.
+std::optional<double> ActuatorInputAt(const Recording& recording, const std::string& cable,
+                                      ActuatorQuantity quantity, double t_s);
 
 }  // namespace palpate::experiment

@@ -31,6 +31,10 @@ BoundarySurface ExtractBoundary(const TetMesh& mesh);
 /// connected over edges) but the walls of closed cavities, and what lies inside these.
 std::vector<int> OuterFaces(const TetMesh& mesh, const BoundarySurface& boundary);
 
+/// The walls of closed cavities: faces of each shell whose normals point into what it encloses, in
+/// rising order; shells in the order of their first faces.
+std::vector<std::vector<int>> InnerSkins(const TetMesh& mesh, const BoundarySurface& boundary);
+
 /// The corner triangles at rest; triangle f is face f of `boundary`.
 geometry::TriangleSurface RestSurface(const TetMesh& mesh, const BoundarySurface& boundary);
 

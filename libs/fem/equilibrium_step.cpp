@@ -8,9 +8,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
+#include "libs/fem/constrained_tangent.hpp"
 
 namespace palpate::fem {
 
@@ -24,6 +26,37 @@ double Value(const Linearisation& linearisation, Eigen::Index c, const Eigen::Ve
 
 bool IsBounded(const LoadState& loads, Eigen::Index c) {
   return loads.command(c).mode == Mode::kUpperBound;
+}
+
+/// The step where held constraints keep a body stable whose tangent was shifted
+/// (constrained_tangent.hpp). False, and nothing is changed, where they do not, or where a
+/// multiplier would leave its bounds.
+bool StepAlongConstraints(Linearisation& linearisation, const LoadState& loads,
+                          const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
+                          const Eigen::MatrixXd& gradients, Eigen::VectorXd* step,
+                          Eigen::VectorXd* multipliers) {
+  const std::vector<Eigen::Index> held = HeldConstraints(loads, multipliers_N);
+  if (held.empty()) return false;
+  Eigen::VectorXd missing(std::ssize(held));
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const ConstraintCommand& command = loads.command(held[k]);
+    if (command.compliance_m_N != 0.0) return false;
+    missing[ToIndex(k)] = Value(linearisation, held[k], x_m) - command.value;
+  }
+  Eigen::VectorXd dx, change;
+  const ConstrainedTangent tangent(linearisation, gradients(Eigen::all, held));
+  if (!tangent.Solve(linearisation.residual_N(), missing, &dx, &change).ok()) return false;
+  Eigen::VectorXd reached = multipliers_N;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const ConstraintCommand& command = loads.command(held[k]);
+    double& multiplier = reached[held[k]];
+    multiplier += change[ToIndex(k)];
+    if (multiplier < command.min_multiplier_N || multiplier > command.max_multiplier_N)
+      return false;
+  }
+  *step = dx;
+  *multipliers = reached;
+  return true;
 }
 
 }  // namespace
@@ -97,8 +130,11 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
     if (IsBounded(loads, c)) constraint[At(bounded++)] = c;
   }
   if (bounded == 0) return Status::Ok();
-  BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector::Zero(bounded),
-               QpVector(bounded)};
+  if (linearisation_.shifted() && StepAlongConstraints(linearisation_, loads, x_m, multipliers_N,
+                                                       gradients_, &step_, &multipliers_)) {
+    return Status::Ok();
+  }
+  BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector(bounded), QpVector(bounded)};
   QpVector present(bounded);
   for (Eigen::Index k = 0; k < bounded; ++k) {
     const Eigen::Index c = constraint[At(k)];
@@ -106,6 +142,7 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
       qp.H(k, l) = gradients_.col(c).dot(columns_.col(l));
     }
     qp.c[k] = gradients_.col(c).dot(step_) + loads.command(c).value - Value(linearisation_, c, x_m);
+    qp.lower[k] = loads.command(c).min_multiplier_N;
     qp.upper[k] = loads.command(c).max_multiplier_N;
     present[k] = multipliers_N[c];
   }
@@ -138,7 +175,8 @@ double ConstraintError_m(const Linearisation& linearisation, const LoadState& lo
     if (!IsBounded(loads, c)) continue;
     if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the actuator cannot pull harder
     const double excess = Value(linearisation, c, x_m) - command.Bound_m(multipliers_N[c]);
-    error = std::max(error, multipliers_N[c] > 0.0 ? std::abs(excess) : excess);
+    const bool at_bound = multipliers_N[c] > command.min_multiplier_N;
+    error = std::max(error, at_bound ? std::abs(excess) : excess);
   }
   return error;
 }

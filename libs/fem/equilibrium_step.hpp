@@ -60,8 +60,9 @@ class EquilibriumStep {
   int factor_ = -1;            ///< Linearisation::factor_count() after it
 };
 
-/// Distance by which the bounds are missed at a state, m: a taut constraint (multiplier above 0) by
-/// either sign, a slack one where it is too long. One at its largest multiplier is not counted.
+/// Distance by which the bounds are missed at a state, m: a taut constraint (multiplier above its
+/// least) by either sign, a slack one where it is too long. One at its largest multiplier is not
+/// counted.
 double ConstraintError_m(const Linearisation& linearisation, const LoadState& loads,
                          const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N);
 

@@ -16,11 +16,14 @@ struct ConstraintCommand {
   enum class Mode {
     kOff,         ///< multiplier 0
     kMultiplier,  ///< multiplier given (cable tension, N)
-    kUpperBound,  ///< g(x) <= Bound_m, 0 <= multiplier <= max_multiplier_N, one of the two equal
+    /// g(x) <= Bound_m, min_multiplier_N <= multiplier <= max_multiplier_N. Above the least
+    /// multiplier g is at its bound.
+    kUpperBound,
   };
   Mode mode = Mode::kOff;
   double value = 0.0;  ///< N for kMultiplier, m for kUpperBound
   double max_multiplier_N = std::numeric_limits<double>::infinity();
+  double min_multiplier_N = 0.0;  ///< <= 0; below 0 for what can pull as well as push (a chamber)
   /// Of kUpperBound: compliance of the bound under its multiplier. Negative where the body
   /// is stiffer there than modelled; with the compliance of the body it is positive.
   double compliance_m_N = 0.0;

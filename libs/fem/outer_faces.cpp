@@ -69,6 +69,9 @@ std::vector<Shell> ShellsOf(const TetMesh& mesh, const BoundarySurface& boundary
   return shells;
 }
 
+/// The normals of a cavity's wall point into it, so that the volume inside it is negative.
+bool IsCavity(const Shell& shell) { return geometry::EnclosedVolume_m3(shell.surface) < 0.0; }
+
 /// Times that a closed surface goes round `point_m`: 0 outside, 1 inside, -1 inside one whose
 /// normals point inward. From solid angles (van Oosterom and Strackee 1983).
 double WindingNumber(const geometry::TriangleSurface& surface, const Eigen::Vector3d& point_m) {
@@ -86,12 +89,19 @@ double WindingNumber(const geometry::TriangleSurface& surface, const Eigen::Vect
 
 }  // namespace
 
-/// The normals of a cavity's wall point into it, so that the volume inside it is negative.
+std::vector<std::vector<int>> InnerSkins(const TetMesh& mesh, const BoundarySurface& boundary) {
+  std::vector<std::vector<int>> skins;
+  for (Shell& shell : ShellsOf(mesh, boundary)) {
+    if (IsCavity(shell)) skins.push_back(std::move(shell.faces));
+  }
+  return skins;
+}
+
 std::vector<int> OuterFaces(const TetMesh& mesh, const BoundarySurface& boundary) {
   const std::vector<Shell> shells = ShellsOf(mesh, boundary);
   std::vector<const Shell*> cavities;
   for (const Shell& shell : shells) {
-    if (geometry::EnclosedVolume_m3(shell.surface) < 0.0) cavities.push_back(&shell);
+    if (IsCavity(shell)) cavities.push_back(&shell);
   }
   std::vector<int> outer;
   for (const Shell& shell : shells) {

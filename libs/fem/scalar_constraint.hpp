@@ -10,7 +10,8 @@
 
 namespace palpate::fem {
 
-/// A scalar function g(x) of the node positions through which a force acts: the length of a cable.
+/// A scalar function g(x) of the node positions through which a force acts: the length of a cable,
+/// the volume of a chamber.
 /// With multiplier lambda it contributes lambda dg/dx to the internal forces (the body is pushed
 /// towards smaller g) and lambda d2g/dx2 to the tangent.
 class ScalarConstraint {

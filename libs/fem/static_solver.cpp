@@ -9,12 +9,20 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
+#include "libs/fem/constrained_tangent.hpp"
 
 namespace palpate::fem {
 
 namespace {
 
 using Mode = ConstraintCommand::Mode;
+
+/// By how much the value of a constraint misses its bound: what can only pull, where it is too
+/// large, what can push, too, either way.
+double Missed_m(const ConstraintCommand& command, double value, double multiplier_N) {
+  const double excess = value - command.Bound_m(multiplier_N);
+  return command.min_multiplier_N < 0.0 ? std::abs(excess) : std::max(0.0, excess);
+}
 
 /// Smaller load steps would not help.
 bool IsFinal(const Status& status) {
@@ -152,7 +160,10 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
                           result->residual_N <= RoundingForce_N(linearisation_, state->x_m);
     if (balanced && result->constraint_error_m <= settings_.constraint_tolerance_m) {
-      if (linearisation_.shifted()) return {StatusCode::kNotConverged, "the balance is unstable"};
+      if (linearisation_.shifted() &&
+          !IsStableUnderConstraints(linearisation_, loads, state->x_m, state->multipliers_N)) {
+        return {StatusCode::kNotConverged, "the balance is unstable"};
+      }
       return CheckLargestMultipliers(linearisation_, loads, state->x_m, state->multipliers_N,
                                      settings_.constraint_tolerance_m);
     }
@@ -217,7 +228,8 @@ bool StaticSolver::TakeFullStep(StaticState* state) {
 /// halved until the potential energy, with exact penalties for the bounds where it leads, falls.
 bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, StaticState* state) {
   for (Eigen::Index c = 0; c < penalties_.size(); ++c) {
-    const double needed = 2.0 * std::max(step_.multipliers_N()[c], state->multipliers_N[c]);
+    const double needed = 2.0 * std::max({step_.multipliers_N()[c], state->multipliers_N[c],
+                                          -step_.multipliers_N()[c], -state->multipliers_N[c]});
     penalties_[c] = std::max(needed, 1e-3);
   }
   const double slope = MeritSlope(loads, *state);
@@ -265,7 +277,7 @@ double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
     const double value = linearisation_.constraints()[At(c)]->Value(x_m);
     merit += command.mode == Mode::kMultiplier
                  ? command.value * value
-                 : penalties_[c] * std::max(0.0, value - command.Bound_m(step_.multipliers_N()[c]));
+                 : penalties_[c] * Missed_m(command, value, step_.multipliers_N()[c]);
   }
   return merit;
 }
@@ -279,9 +291,8 @@ double StaticSolver::MeritSlope(const LoadState& loads, const StaticState& state
     if (command.mode != Mode::kUpperBound) continue;
     // The residual holds lambda dg/dx already; the merit does not.
     slope += state.multipliers_N[c] * step_.gradient(c).dot(step_.dx());
-    const double excess = linearisation_.constraints()[At(c)]->Value(state.x_m) -
-                          command.Bound_m(step_.multipliers_N()[c]);
-    slope -= penalties_[c] * std::max(0.0, excess);
+    const double value = linearisation_.constraints()[At(c)]->Value(state.x_m);
+    slope -= penalties_[c] * Missed_m(command, value, step_.multipliers_N()[c]);
   }
   return std::min(slope, 0.0);
 }

@@ -156,7 +156,7 @@ Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& mo
                    " times: start again with the calibration as a file, or calibrate again");
   }
   if (Status status = CheckRoutes(calibration.cable_routes, body); !status.ok()) return status;
-  const std::vector<std::string> cables = model.CableNames();
+  const std::vector<std::string> cables = model.ActuatorNames();
   for (const CalibratedDrive& drive : calibration.drives) {
     if (IndexOf(cables, drive.cable)) continue;
     return Foreign("the calibration holds the actuator of cable '" + drive.cable +
@@ -168,7 +168,7 @@ Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& mo
 void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
   const Status status = CheckCalibration(calibration, *model);
   if (!status.ok()) throw InputError(status.message());
-  const std::vector<std::string> cables = model->CableNames();
+  const std::vector<std::string> cables = model->ActuatorNames();
   for (const CalibratedDrive& drive : calibration.drives) {
     model->SetDrive(IndexOf(cables, drive.cable).value(), drive.drive);
   }

@@ -183,12 +183,20 @@ void NoteJoined(const std::vector<int>& joined, const RobotDescription& robot,
                    SomeOf(joined) + ")");
 }
 
-fem::TetMesh ReadChecked(const RobotDescription& robot, std::vector<std::string>* notes) {
+bool NamesNodeGroup(const RobotDescription& robot) {
+  return std::any_of(
+      robot.chambers.begin(), robot.chambers.end(),
+      [](const ChamberSettings& chamber) { return !chamber.surface.physical_group.empty(); });
+}
+
+fem::TetMesh ReadChecked(const RobotDescription& robot, std::vector<std::string>* notes,
+                         std::vector<fem::NodeGroup>* node_groups) {
   const std::string file = robot.mesh.file.string();
   if (!std::filesystem::exists(robot.mesh.file)) {
     throw InputError(robot.mesh.where, "there is no mesh file " + file);
   }
-  fem::TetMesh mesh = fem::ReadMesh(robot.mesh.file, robot.mesh.metres_per_unit, notes);
+  fem::TetMesh mesh = fem::ReadMesh(robot.mesh.file, robot.mesh.metres_per_unit, notes,
+                                    NamesNodeGroup(robot) ? node_groups : nullptr);
   CheckSize(robot, mesh);
   NoteJoined(fem::JoinSeams(&mesh), robot, notes);
   const fem::MeshReport report = fem::ReportMesh(mesh);
@@ -215,7 +223,7 @@ std::string HashMesh(const fem::TetMesh& mesh, fem::ElementType element) {
 
 BodyMesh ReadBodyMesh(const RobotDescription& robot, std::vector<std::string>* notes) {
   BodyMesh body;
-  body.mesh = ReadChecked(robot, notes);
+  body.mesh = ReadChecked(robot, notes, &body.node_groups);
   body.hash = HashMesh(body.mesh, robot.element);
   const Eigen::Matrix3d R = geometry::RotationFromFixedXyz_deg(robot.mesh.rotate_xyz_deg);
   body.mesh.nodes_m = ((R * body.mesh.nodes_m).colwise() + robot.mesh.translate_m).eval();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "libs/fem/mesh_io/node_group.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -14,9 +15,10 @@ namespace palpate::robot {
 
 /// The mesh of a robot, ready to solve on.
 struct BodyMesh {
-  fem::TetMesh mesh;       ///< placed in the robot frame, of the robot's element
-  std::string hash;        ///< see RobotBody::mesh_hash
-  std::vector<bool> used;  ///< [n] whether an element names the node
+  fem::TetMesh mesh;                        ///< placed in the robot frame, of the robot's element
+  std::string hash;                         ///< see RobotBody::mesh_hash
+  std::vector<bool> used;                   ///< [n] whether an element names the node
+  std::vector<fem::NodeGroup> node_groups;  ///< of the file, where a chamber names one
 };
 
 /// Reads, checks, places and, for tet10, refines the mesh. Appends to `notes`. Throws InputError.

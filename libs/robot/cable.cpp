@@ -54,7 +54,7 @@ Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::Interpolation
     : pull_point_m_(pull_point_m), eyelets_(std::move(eyelets)) {
   PALPATE_CHECK(!eyelets_.empty());
   for (size_t e = 0; e < eyelets_.size(); ++e) pieces_.push_back(MakePiece(e));
-  rest_length_m_ = Value(rest_x_m);
+  SetRestValue(Value(rest_x_m));
 }
 
 Cable::Piece Cable::MakePiece(size_t eyelet) const {
@@ -81,7 +81,7 @@ Cable::Piece Cable::MakePiece(size_t eyelet) const {
 void Cable::SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m) {
   pull_point_m_ = pull_point_m;
   pieces_.front().offset_m = -pull_point_m;
-  rest_length_m_ = Value(rest_x_m);
+  SetRestValue(Value(rest_x_m));
 }
 
 void Cable::SetEyelet(int eyelet, const std::vector<double>& weights,
@@ -92,7 +92,7 @@ void Cable::SetEyelet(int eyelet, const std::vector<double>& weights,
   for (size_t e = moved; e < std::min(moved + 2, pieces_.size()); ++e) {
     pieces_[e].coefficients = MakePiece(e).coefficients;
   }
-  rest_length_m_ = Value(rest_x_m);
+  SetRestValue(Value(rest_x_m));
 }
 
 void Cable::SetFriction(const CableFriction& friction) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libs/fem/interpolation_weights.hpp"
-#include "libs/fem/scalar_constraint.hpp"
+#include "libs/robot/actuator.hpp"
 #include "libs/robot/cable_friction.hpp"
 
 namespace palpate::robot {
@@ -16,14 +16,14 @@ namespace palpate::robot {
 /// to the last one, where it is attached. Its value is its length outside the actuator, m; its
 /// multiplier the tension at the actuator, N: without friction the same all along. A cable cannot
 /// push.
-class Cable final : public fem::ScalarConstraint {
+class Cable final : public Actuator {
  public:
   /// `eyelets`: at least one, weights as in fem/interpolation_weights.hpp; `rest_x_m` [3n] rest
   /// positions.
   Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::InterpolationWeights> eyelets,
         const Eigen::VectorXd& rest_x_m);
 
-  double rest_length_m() const { return rest_length_m_; }
+  double rest_length_m() const { return rest_value_m(); }
   const Eigen::Vector3d& pull_point_m() const { return pull_point_m_; }
   /// `rest_x_m` as at the construction.
   void SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m);
@@ -32,13 +32,6 @@ class Cable final : public fem::ScalarConstraint {
   void SetEyelet(int eyelet, const std::vector<double>& weights, const Eigen::VectorXd& rest_x_m);
   const CableFriction& friction() const { return friction_; }
   void SetFriction(const CableFriction& friction);
-  /// Elastic compliance: length that leaves the actuator per N of tension, m/N; 0 at first. It is
-  /// negative where the mesh is softer than the body at the end of the cable.
-  double compliance_m_N() const { return compliance_m_N_; }
-  void SetCompliance(double compliance_m_N) { compliance_m_N_ = compliance_m_N; }
-  /// Displacement delta_a: length that the actuator has pulled in, counted from the undeformed
-  /// body; for an elastic cable minus its elongation.
-  double Displacement_m(const Eigen::VectorXd& x_m) const { return rest_length_m_ - Value(x_m); }
   /// [3 x eyelets + 1], pull point first.
   Eigen::Matrix3Xd Path_m(const Eigen::VectorXd& x_m) const;
   /// The same into memory that is kept.
@@ -74,8 +67,6 @@ class Cable final : public fem::ScalarConstraint {
   std::vector<fem::InterpolationWeights> eyelets_;
   std::vector<Piece> pieces_;
   CableFriction friction_;
-  double compliance_m_N_ = 0.0;
-  double rest_length_m_ = 0.0;
 };
 
 }  // namespace palpate::robot

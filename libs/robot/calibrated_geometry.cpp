@@ -115,6 +115,7 @@ void ScaleBody(double scale, RobotBody* body) {
     cable.guide_radius_m *= scale;
     for (fem::BodyPoint& eyelet : cable.eyelets) ScalePoint(scale, &eyelet);
   }
+  for (BodyChamber& chamber : body->chambers) chamber.volume_m3 *= scale * scale * scale;
   for (BodyMarker& marker : body->markers) ScalePoint(scale, &marker.point);
   for (fem::BodyPoint& point : body->feature_points) ScalePoint(scale, &point);
 }

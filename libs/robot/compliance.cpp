@@ -53,7 +53,7 @@ void Compliance::SetForces(std::vector<ForceDirection> forces) {
   }
 }
 
-void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
+void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m,
                          const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N) {
   PALPATE_CHECK(lambda_a_N.size() == lambda_a_.size(), lambda_a_N.size());
   PALPATE_CHECK(lambda_f_N.size() == lambda_f_.size(), lambda_f_N.size());
@@ -62,28 +62,27 @@ void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cabl
   FillColumns(x_m);
   linearisation_.SolveSingle(columns_);
   ObserveColumns();
-  ObserveResponse(x_m, cable_rest_length_m);
+  ObserveResponse(x_m, actuator_rest_m);
 }
 
-void Compliance::ComputeChord(const Eigen::VectorXd& x_m,
-                              const Eigen::VectorXd& cable_rest_length_m,
+void Compliance::ComputeChord(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m,
                               const Eigen::VectorXd& lambda_a_N,
                               const Eigen::VectorXd& lambda_f_N) {
   lambda_a_ = lambda_a_N;
   lambda_f_ = lambda_f_N;
   columns_.col(0) = linearisation_.residual_N();
   linearisation_.SolveSingle(columns_.col(0));
-  ObserveResponse(x_m, cable_rest_length_m);
+  ObserveResponse(x_m, actuator_rest_m);
 }
 
-void Compliance::Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m) {
+void Compliance::Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m) {
   ObserveColumns();
-  ObserveResponse(x_m, cable_rest_length_m);
+  ObserveResponse(x_m, actuator_rest_m);
 }
 
 /// The free values: where effectors and cables are, and what the residual does to them.
 void Compliance::ObserveResponse(const Eigen::VectorXd& x_m,
-                                 const Eigen::VectorXd& cable_rest_length_m) {
+                                 const Eigen::VectorXd& actuator_rest_m) {
   const fem::StiffnessMatrix& matrix = linearisation_.matrix();
   for (size_t e = 0; e < effectors_.size(); ++e) {
     double value = effectors_[e].Value(x_m);
@@ -97,7 +96,7 @@ void Compliance::ObserveResponse(const Eigen::VectorXd& x_m,
   const auto& cables = linearisation_.constraints();
   for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
     delta_a_free_[c] =
-        cable_rest_length_m[c] - cables[At(c)]->Value(x_m) + AlongCable(c, columns_.col(0));
+        actuator_rest_m[c] - cables[At(c)]->Value(x_m) + AlongCable(c, columns_.col(0));
   }
   // The free values are those without cable and contact forces; the residual holds both.
   delta_e_free_.noalias() -= W_ea_ * lambda_a_;

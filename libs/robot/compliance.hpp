@@ -41,17 +41,17 @@ class Compliance {
   const std::vector<ForceDirection>& forces() const { return forces_; }
 
   /// Computes everything about the state, at which `linearisation` was updated last.
-  /// `cable_rest_length_m` [a]; lambda_a [a] and lambda_f [f] are the forces that the state's
+  /// `actuator_rest_m` [a]; lambda_a [a] and lambda_f [f] are the forces that the state's
   /// residual was computed with, N.
-  void Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
+  void Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m,
                const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
   /// The same at another state, with the W of the last Compute (a chord step): only the residual,
   /// which `linearisation` must have updated there, is solved for, with the old factor.
-  void ComputeChord(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
+  void ComputeChord(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m,
                     const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
 
   /// What the effectors set since see of the columns of the last Compute or ComputeChord.
-  void Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
+  void Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m);
 
   /// Solves for the effectors, about the state of the last Compute: K is symmetric, so that the
   /// columns K^-1 H_e' give W of any forces (Maxwell's and Betti's reciprocity).
@@ -81,7 +81,7 @@ class Compliance {
   void FillColumns(const Eigen::VectorXd& x_m);
   double AlongCable(Eigen::Index cable, const Eigen::Ref<const Eigen::VectorXd>& column) const;
   void ObserveColumns();
-  void ObserveResponse(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
+  void ObserveResponse(const Eigen::VectorXd& x_m, const Eigen::VectorXd& actuator_rest_m);
 
   fem::Linearisation& linearisation_;
   std::vector<ObservationRow> effectors_;

@@ -20,30 +20,30 @@ void FrameTracker::Start(const fem::StaticState& state) {
   trial_multipliers_N_ = state.multipliers_N;
 }
 
-const fem::FrameOutcome& FrameTracker::Follow(const std::vector<CableCommand>& cables,
+const fem::FrameOutcome& FrameTracker::Follow(const std::vector<ActuatorCommand>& cables,
                                               const Eigen::VectorXd& force_N,
                                               const fem::TimeBudget& budget) {
   PALPATE_CHECK(state_.x_m.size() > 0 && force_N.size() == state_.x_m.size(), force_N.size());
-  PALPATE_CHECK(static_cast<int>(cables.size()) == model_.CableCount(), cables.size());
+  PALPATE_CHECK(static_cast<int>(cables.size()) == model_.ActuatorCount(), cables.size());
   SetLoads(cables, force_N);
   fem::EquilibriumStep::ImposeMultipliers(state_.loads, &state_.multipliers_N);
   outcome_ = fem::SolveNewton(*this, settings_, budget);
-  if (outcome_.converged() && model_.CableCount() > 0) {
+  if (outcome_.converged() && model_.ActuatorCount() > 0) {
     // A cable at its largest tension balances the body, yet not with the displacement asked for.
     outcome_.status = fem::CheckLargestMultipliers(
         model_.linearisation(), state_.loads, state_.x_m, state_.multipliers_N,
-        settings_.relative_tolerance * model_.cable_rest_length_m().maxCoeff());
+        settings_.relative_tolerance * model_.actuator_rest_m().cwiseAbs().maxCoeff());
   }
   if (outcome_.converged()) last_good_ = state_;
   if (outcome_.diverged()) state_ = last_good_;
   return outcome_;
 }
 
-void FrameTracker::SetLoads(const std::vector<CableCommand>& cables,
+void FrameTracker::SetLoads(const std::vector<ActuatorCommand>& cables,
                             const Eigen::VectorXd& force_N) {
   state_.loads.external_force_N = force_N;
   model_.AddWeight(state_.loads.external_force_N);
-  for (int c = 0; c < model_.CableCount(); ++c) {
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
     state_.loads.commands[At(c)] = model_.ToConstraint(c, cables[At(c)]);
   }
 }
@@ -76,10 +76,10 @@ double FrameTracker::Error() const {
   if (residual_N > fem::RoundingForce_N(linearisation, trial_x_m_)) {
     error = residual_N / fem::ForceScale_N(linearisation, state_.loads, trial_multipliers_N_);
   }
-  if (model_.CableCount() == 0) return error;
+  if (model_.ActuatorCount() == 0) return error;
   const double missed_m =
       fem::ConstraintError_m(linearisation, state_.loads, trial_x_m_, trial_multipliers_N_);
-  return std::max(error, missed_m / model_.cable_rest_length_m().minCoeff());
+  return std::max(error, missed_m / model_.actuator_rest_m().cwiseAbs().minCoeff());
 }
 
 }  // namespace palpate::robot

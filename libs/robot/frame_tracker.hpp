@@ -13,7 +13,7 @@
 
 namespace palpate::robot {
 
-/// The model following its cables and given forces from frame to frame, each by SolveNewton
+/// The model following its actuators and given forces from frame to frame, each by SolveNewton
 /// (newton_loop.hpp): what a simulation beside the real robot needs. A frame's error is the larger
 /// of the residual over the size of the forces (ForceScale_N) and the missed cable length over the
 /// cable's rest length. Nothing is allocated after the first frame.
@@ -27,7 +27,7 @@ class FrameTracker final : private fem::NewtonProblem {
 
   /// Moves towards the balance of weight, `cables` and `force_N` [3n] (nodal dead loads beside the
   /// weight). After a frame that diverged the state is the last good one. Needs Start before it.
-  const fem::FrameOutcome& Follow(const std::vector<CableCommand>& cables,
+  const fem::FrameOutcome& Follow(const std::vector<ActuatorCommand>& cables,
                                   const Eigen::VectorXd& force_N,
                                   const fem::TimeBudget& budget = {});
 
@@ -43,7 +43,7 @@ class FrameTracker final : private fem::NewtonProblem {
   double TrialError() const override { return trial_error_; }
   void AcceptTrial() override;
 
-  void SetLoads(const std::vector<CableCommand>& cables, const Eigen::VectorXd& force_N);
+  void SetLoads(const std::vector<ActuatorCommand>& cables, const Eigen::VectorXd& force_N);
   double Error() const;
 
   RobotModel& model_;

@@ -21,7 +21,7 @@ namespace palpate::robot {
 
 namespace {
 
-using Kind = CableCommand::Kind;
+using Kind = ActuatorCommand::Kind;
 
 bool HasPlay(const RobotBody& body) {
   return std::any_of(body.cables.begin(), body.cables.end(),
@@ -33,9 +33,10 @@ bool HasFriction(const RobotBody& body) {
   return coefficient.size() > 0 && coefficient.maxCoeff() > 0.0;
 }
 
-/// [cables] by how much the actuators take in more, m, or pull harder, N; 0 where a cable is
-/// commanded otherwise than before.
-Eigen::VectorXd StepOf(const std::vector<CableCommand>& from, const std::vector<CableCommand>& to) {
+/// [actuators] by how much they take in more, m, or pull harder, N; 0 where one is commanded
+/// otherwise than before.
+Eigen::VectorXd StepOf(const std::vector<ActuatorCommand>& from,
+                       const std::vector<ActuatorCommand>& to) {
   Eigen::VectorXd step = Eigen::VectorXd::Zero(std::ssize(to));
   for (std::size_t c = 0; c < to.size(); ++c) {
     if (to[c].kind == from[c].kind && to[c].kind != Kind::kNone)
@@ -67,7 +68,7 @@ class HistoryState::Eyelets {
     SetFriction(sliding_);
   }
 
-  void Prepare(const std::vector<CableCommand>& commands) {
+  void Prepare(const std::vector<ActuatorCommand>& commands) {
     if (!known_) return;
     RenewSlides(commands);
     if (slides_.IsKnown()) {
@@ -86,7 +87,7 @@ class HistoryState::Eyelets {
     return change;
   }
 
-  void Commit(const std::vector<CableCommand>& commands, const Eigen::VectorXd& x_m,
+  void Commit(const std::vector<ActuatorCommand>& commands, const Eigen::VectorXd& x_m,
               const Eigen::VectorXd& tension_N) {
     const Eigen::VectorXd lengths_m = LengthsBeyond_m(x_m);
     sliding_ = SlidingAt(lengths_m);
@@ -108,7 +109,7 @@ class HistoryState::Eyelets {
   }
 
   /// About the last shape, where the commands have gone far since, or other cables are taut.
-  void RenewSlides(const std::vector<CableCommand>& commands) {
+  void RenewSlides(const std::vector<ActuatorCommand>& commands) {
     if (slides_.IsKnown()) {
       if (StepOf(commands_, commands).isZero(0.0)) return;
       if (AreNear(slides_at_, commands) && Taut() == taut_) return;
@@ -121,7 +122,8 @@ class HistoryState::Eyelets {
     taut_ = Taut();
   }
 
-  bool AreNear(const std::vector<CableCommand>& one, const std::vector<CableCommand>& other) const {
+  bool AreNear(const std::vector<ActuatorCommand>& one,
+               const std::vector<ActuatorCommand>& other) const {
     const Eigen::VectorXd step = StepOf(one, other);
     for (std::size_t c = 0; c < one.size(); ++c) {
       const bool by_tension = one[c].kind == Kind::kTension;
@@ -133,7 +135,7 @@ class HistoryState::Eyelets {
 
   std::vector<bool> Taut() const {
     std::vector<bool> taut;
-    for (Eigen::Index c = 0; c < model_.CableCount(); ++c)
+    for (Eigen::Index c = 0; c < model_.ActuatorCount(); ++c)
       taut.push_back(state_.multipliers_N[c] > 0.0);
     return taut;
   }
@@ -171,14 +173,14 @@ class HistoryState::Eyelets {
   Eigen::VectorXd coefficient_;  ///< [eyelets]
   SensitivitySolver sensitivity_;
   EyeletSlides slides_;
-  std::vector<CableCommand> slides_at_;  ///< of which they are
-  std::vector<bool> taut_;               ///< [cables] there
-  bool known_ = false;                   ///< what follows
-  Eigen::VectorXd sliding_;              ///< [eyelets] at the last shape
-  Eigen::VectorXd assumed_;              ///< [eyelets] in the frame that was prepared
-  Eigen::VectorXd lengths_m_;            ///< [eyelets] at the last shape
-  std::vector<CableCommand> commands_;   ///< of the last shape
-  fem::StaticState state_;               ///< the last shape
+  std::vector<ActuatorCommand> slides_at_;  ///< of which they are
+  std::vector<bool> taut_;                  ///< [cables] there
+  bool known_ = false;                      ///< what follows
+  Eigen::VectorXd sliding_;                 ///< [eyelets] at the last shape
+  Eigen::VectorXd assumed_;                 ///< [eyelets] in the frame that was prepared
+  Eigen::VectorXd lengths_m_;               ///< [eyelets] at the last shape
+  std::vector<ActuatorCommand> commands_;   ///< of the last shape
+  fem::StaticState state_;                  ///< the last shape
 };
 
 /// Creep and softening. What creep has left of the past is a stress that stays with the material.
@@ -312,15 +314,16 @@ void HistoryState::Restart() {
   if (material_) material_->Restart();
 }
 
-const std::vector<CableCommand>& HistoryState::Prepare(double t_s,
-                                                       const std::vector<CableCommand>& commands) {
-  PALPATE_CHECK(static_cast<int>(commands.size()) == model_.CableCount(), commands.size());
+const std::vector<ActuatorCommand>& HistoryState::Prepare(
+    double t_s, const std::vector<ActuatorCommand>& commands) {
+  PALPATE_CHECK(static_cast<int>(commands.size()) == model_.ActuatorCount(), commands.size());
   if (began_ && t_s < t_s_) Restart();
   if (!began_) commands_ = commands;
   for (std::size_t c = 0; c < commands.size(); ++c) {
     const bool followed =
         commands[c].kind == Kind::kDisplacement && commands_[c].kind == Kind::kDisplacement;
-    const double play_m = model_.body().cables[c].play_m;
+    const bool is_cable = c < model_.body().cables.size();
+    const double play_m = is_cable ? model_.body().cables[c].play_m : 0.0;
     const double value =
         followed ? Play(commands_[c].value, commands[c].value, play_m) : commands[c].value;
     commands_[c] = {commands[c].kind, value};

@@ -45,7 +45,8 @@ class HistoryState {
   /// The commands as they reach the cables in a frame at `t_s`, s. Sets friction, cell factors and
   /// the history force of the model to what is left of the past then. Uses the model's
   /// linearisation. A time before the last one's begins a sequence.
-  const std::vector<CableCommand>& Prepare(double t_s, const std::vector<CableCommand>& commands);
+  const std::vector<ActuatorCommand>& Prepare(double t_s,
+                                              const std::vector<ActuatorCommand>& commands);
   /// Brings friction, cell factors and the history force to a solution `x_m` [3n] of the frame that
   /// was prepared. Returns whether they change enough for the frame to be solved again.
   bool Correct(const Eigen::VectorXd& x_m);
@@ -62,9 +63,9 @@ class HistoryState {
   bool active_;
   double t_s_ = 0.0;
   bool began_ = false;
-  std::vector<CableCommand> commands_;  ///< as they reach the cables
-  std::unique_ptr<Eyelets> eyelets_;    ///< or nothing: no cable rubs
-  std::unique_ptr<Material> material_;  ///< or nothing: neither creep nor softening
+  std::vector<ActuatorCommand> commands_;  ///< as they reach the cables
+  std::unique_ptr<Eyelets> eyelets_;       ///< or nothing: no cable rubs
+  std::unique_ptr<Material> material_;     ///< or nothing: neither creep nor softening
 };
 
 }  // namespace palpate::robot

@@ -16,6 +16,8 @@
 #include "libs/geometry/box.hpp"
 #include "libs/geometry/surface_sampling.hpp"
 #include "libs/robot/body_mesh.hpp"
+#include "libs/robot/chamber.hpp"
+#include "libs/robot/chamber_wall.hpp"
 
 namespace palpate::robot {
 
@@ -263,7 +265,37 @@ void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator
   PlaceFeaturePoints(robot, locator, placer, body);
 }
 
+void PlaceChambers(const RobotDescription& robot, const fem::PointLocator& locator,
+                   const std::vector<fem::NodeGroup>& groups, RobotBody* body) {
+  const Eigen::VectorXd rest_m = body->mesh.nodes_m.reshaped();
+  for (const ChamberSettings& settings : robot.chambers) {
+    BodyChamber chamber{settings.name, ChamberWall(settings, robot.mesh, locator, groups), 0.0,
+                        settings.dead_volume_m3, settings.max_pressure_Pa};
+    chamber.volume_m3 = fem::EnclosedVolume(chamber.wall).Volume_m3(rest_m);
+    body->notes.push_back("chamber " + chamber.name + ": " +
+                          std::to_string(chamber.wall.faces.cols()) + " faces around " +
+                          FormatNumber(1e6 * chamber.volume_m3) + " cm3");
+    body->chambers.push_back(std::move(chamber));
+  }
+}
+
 }  // namespace
+
+std::vector<ActuatorTraits> ActuatorsOf(const RobotBody& body) {
+  std::vector<ActuatorTraits> actuators;
+  for (const BodyCable& cable : body.cables) {
+    actuators.push_back({.name = cable.name, .most_force_N = cable.max_tension_N});
+  }
+  for (const BodyChamber& chamber : body.chambers) {
+    const double area_m2 = PistonArea_m2(chamber.volume_m3);
+    actuators.push_back({.kind = ActuatorKind::kChamber,
+                         .name = chamber.name,
+                         .least_force_N = kVacuum_Pa * area_m2,
+                         .most_force_N = chamber.max_pressure_Pa * area_m2,
+                         .area_m2 = area_m2});
+  }
+  return actuators;
+}
 
 geometry::TriangleSurface ContactSurface(const RobotBody& body) {
   geometry::TriangleSurface surface = fem::RestSurface(body.mesh, body.boundary);
@@ -289,6 +321,7 @@ RobotBody BuildRobotBody(const RobotDescription& robot) {
   const fem::PointLocator locator(read.mesh);
   body.boundary = locator.boundary();
   PlacePoints(robot, locator, &body);
+  PlaceChambers(robot, locator, read.node_groups, &body);
   return body;
 }
 

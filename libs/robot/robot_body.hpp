@@ -10,10 +10,12 @@
 
 #include "libs/fem/boundary_surface.hpp"
 #include "libs/fem/embedding.hpp"
+#include "libs/fem/enclosed_volume.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/mullins.hpp"
 #include "libs/fem/prony_term.hpp"
 #include "libs/fem/tet_mesh.hpp"
+#include "libs/robot/actuator.hpp"
 #include "libs/robot/robot_description.hpp"
 
 namespace palpate::robot {
@@ -29,6 +31,14 @@ struct BodyCable {
   /// at all (eyelets.hpp).
   std::vector<Eigen::Vector3d> eyelets_moved_m = {};
   double play_m = 0.0;  ///< full width, of the actuator
+};
+
+struct BodyChamber {
+  std::string name;
+  fem::MovingSurface wall;       ///< closed; its outside is the material
+  double volume_m3 = 0.0;        ///< of the undeformed body, > 0
+  double dead_volume_m3 = 0.0;   ///< of the tube
+  double max_pressure_Pa = 0.0;  ///< above ambient
 };
 
 struct BodyMarker {
@@ -70,6 +80,7 @@ struct RobotBody {
 
   double scale = 1.0;  ///< how much larger all of it is than the robot file says (ScaleBody)
   std::vector<BodyCable> cables;
+  std::vector<BodyChamber> chambers;
   double eyelet_room_m = 0.0;  ///< how far a model of it can move eyelets (GiveEyeletsRoom)
   std::vector<BodyMarker> markers;
   std::vector<fem::BodyPoint> feature_points;
@@ -87,8 +98,11 @@ struct RobotBody {
 /// mesh that cannot be read or solved, or is of another element; a fixed box without a node; a
 /// piece of the mesh that is not held against every rigid motion; a region without an element; a
 /// point of a cable more than 20 mm or 5 % of the body's diagonal from the body, whichever is less;
-/// a marker or a given feature point farther from it than that diagonal.
+/// a marker or a given feature point farther from it than that diagonal; what ChamberWall refuses.
 RobotBody BuildRobotBody(const RobotDescription& robot);
+
+/// Cables, then chambers: the order of commands and multipliers.
+std::vector<ActuatorTraits> ActuatorsOf(const RobotBody& body);
 
 /// The rest surface where something can touch: contact_faces, or all where there are none.
 geometry::TriangleSurface ContactSurface(const RobotBody& body);

@@ -221,6 +221,33 @@ CableSettings ReadCable(const ConfigNode& node, std::set<std::string>* names) {
   return cable;
 }
 
+ChamberSurface ReadChamberSurface(const ConfigNode& node) {
+  MapReader map(node, ChamberSurfaceKeys());
+  ChamberSurface surface;
+  map.Read("inner_skin", &surface.inner_skin);
+  map.Read("physical_group", &surface.physical_group);
+  map.Read("file", &surface.file);
+  map.Finish();
+  const int given = (surface.inner_skin > 0 ? 1 : 0) + (surface.physical_group.empty() ? 0 : 1) +
+                    (surface.file.empty() ? 0 : 1);
+  if (given != 1) Refuse(node, "needs one of inner_skin, physical_group and file");
+  return surface;
+}
+
+ChamberSettings ReadChamber(const ConfigNode& node, std::set<std::string>* names) {
+  MapReader map(node, ChamberKeys());
+  ChamberSettings chamber;
+  chamber.where = node.where;
+  chamber.name = ReadUniqueName(map.Require("name"), names);
+  const ConfigNode& surface = map.Require("surface");
+  chamber.surface = ReadChamberSurface(surface);
+  chamber.surface_where = surface.where;
+  map.Read("dead_volume_m3", &chamber.dead_volume_m3);
+  map.Read("max_pressure_Pa", &chamber.max_pressure_Pa);
+  map.Finish();
+  return chamber;
+}
+
 RegionSettings ReadRegion(const ConfigNode& node, std::set<std::string>* names) {
   MapReader map(node, RegionKeys());
   RegionSettings region;
@@ -286,11 +313,12 @@ void ReadFeaturePoints(const ConfigNode& node, RobotDescription* robot) {
   robot->feature_point_count = static_cast<int>(robot->feature_points_m.cols());
 }
 
-/// Reads every item of an optional list by `read_item(item, names seen so far)`.
+/// Reads every item of an optional list by `read_item(item, names seen so far)`; none has one of
+/// `names`.
 template <typename Item, typename ReadItem>
-std::vector<Item> ReadList(MapReader* map, const std::string& key, ReadItem read_item) {
+std::vector<Item> ReadList(MapReader* map, const std::string& key, ReadItem read_item,
+                           std::set<std::string> names = {}) {
   std::vector<Item> list;
-  std::set<std::string> names;
   const ConfigNode* node = map->Optional(key);
   if (node == nullptr) return list;
   for (const ConfigNode& item : Items(*node, key)) list.push_back(read_item(item, &names));
@@ -314,6 +342,9 @@ RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLo
   map.Read("gravity_m_s2", &robot.gravity_m_s2);
   ReadFixed(map.Require("fixed"), &robot);
   robot.cables = ReadList<CableSettings>(&map, "cables", ReadCable);
+  std::set<std::string> cable_names;
+  for (const CableSettings& cable : robot.cables) cable_names.insert(cable.name);
+  robot.chambers = ReadList<ChamberSettings>(&map, "chambers", ReadChamber, cable_names);
   robot.regions = ReadList<RegionSettings>(&map, "regions", ReadRegion);
   robot.markers = ReadList<MarkerSettings>(&map, "markers", ReadMarker);
   if (const ConfigNode* points = map.Optional("feature_points")) ReadFeaturePoints(*points, &robot);

@@ -51,6 +51,23 @@ struct CableSettings {
   double play_m = 0.0;  ///< >= 0, full width, of the actuator
 };
 
+/// The wall of a chamber: one of the three.
+struct ChamberSurface {
+  int inner_skin = 0;          ///< > 0: the n-th closed inner surface of the mesh (fem::InnerSkins)
+  std::string physical_group;  ///< not empty: triangles that the mesh file names so
+  std::filesystem::path file;  ///< not empty: a closed surface (STL), placed as the mesh is
+};
+
+/// A closed chamber in the body that a fluid under pressure fills.
+struct ChamberSettings {
+  std::string name;  ///< no cable has it
+  ChamberSurface surface;
+  double dead_volume_m3 = 0.0;     ///< >= 0; of the tube up to the sensor or valve
+  double max_pressure_Pa = 100e3;  ///< > 0, above ambient
+  SourceLocation where;
+  SourceLocation surface_where;
+};
+
 /// A named part of the body; its own modulus where given, else the body's.
 struct RegionSettings {
   std::string name;
@@ -80,6 +97,7 @@ struct RobotDescription {
   std::vector<Box> fixed;
   std::vector<SourceLocation> fixed_where;
   std::vector<CableSettings> cables;
+  std::vector<ChamberSettings> chambers = {};
   std::vector<RegionSettings> regions;
   std::vector<MarkerSettings> markers;
   int feature_point_count = 51;       ///< used where no positions are given
@@ -106,6 +124,7 @@ inline constexpr double kLargestPoissonsRatio = 0.4999;
 inline constexpr NumberRule kPoissonsRatio{
     .min = -1.0, .max = kLargestPoissonsRatio, .min_open = true};
 inline constexpr int kMaxFeaturePoints = 100000;
+inline constexpr int kMaxInnerSkin = 1000;
 
 /// The description as the text of a robot file that lies in `folder`: the path of the mesh is
 /// written relative to it. Reading it back gives the same description.

@@ -131,6 +131,38 @@ const KeyTable& CableKeys() {
   return keys;
 }
 
+const KeyTable& ChamberSurfaceKeys() {
+  static const KeyTable keys{
+      .title = "chamber surface",
+      .about = "The wall of a chamber, a closed surface.",
+      .keys = {{"inner_skin", value::WholeNumber(1, kMaxInnerSkin), kOptional,
+                "The n-th closed inner surface of the mesh, in the order of its elements. "
+                "`palpate info ROBOT` lists them."},
+               {"physical_group", value::Text(), kOptional,
+                "Name of a group of triangles in the mesh file (a physical surface of Gmsh)."},
+               {"file", value::File(), kOptional,
+                "Closed surface as `.stl`, in the unit of the mesh, and placed as the mesh is. Its "
+                "vertices lie on the wall."}},
+      .exactly_one = {{"inner_skin", "physical_group", "file"}}};
+  return keys;
+}
+
+const KeyTable& ChamberKeys() {
+  static const KeyTable keys{
+      .title = "chamber",
+      .about = "A closed chamber in the body that a pump or a valve fills.",
+      .keys = {
+          {"name", value::Text(), kRequired,
+           "Unique name, as in `actuation.csv`; no cable has it. No commas, semicolons, "
+           "quotes or blanks at the ends."},
+          {"surface", value::Map(ChamberSurfaceKeys()), kRequired, "Its wall."},
+          {"dead_volume_m3", value::Real(kNonNegative), Default(ChamberSettings{}.dead_volume_m3),
+           "Volume between chamber and valve: of the tube."},
+          {"max_pressure_Pa", value::Real(kPositive), Default(ChamberSettings{}.max_pressure_Pa),
+           "Largest pressure of the supply, above ambient."}}};
+  return keys;
+}
+
 const KeyTable& RegionKeys() {
   static const KeyTable keys{
       .title = "region",
@@ -181,7 +213,9 @@ const KeyTable& RobotFileKeys() {
   const RobotDescription defaults;
   static const KeyTable keys{
       .title = "robot file",
-      .about = "Description of a cable-driven soft robot. Lengths are in the robot frame.",
+      .about =
+          "Description of a soft robot that cables or chambers drive. Lengths are in the robot "
+          "frame.",
       .keys = {{"name", value::Text(), kRequired,
                 "Name of the robot. No commas, semicolons, quotes or blanks at the ends."},
                {"mesh", value::Map(MeshKeys()), kRequired, "Mesh of the undeformed body."},
@@ -195,6 +229,8 @@ const KeyTable& RobotFileKeys() {
                 "Regions that do not move. Each connected piece of the mesh needs three fixed "
                 "nodes that span a triangle."},
                {"cables", value::ListOfMaps(CableKeys()), kOptional, "Cables. Absent: none."},
+               {"chambers", value::ListOfMaps(ChamberKeys()), kOptional,
+                "Chambers under pressure. Absent: none."},
                {"regions", value::ListOfMaps(RegionKeys()), kOptional,
                 "Named parts of the body. Absent: none."},
                {"markers", value::ListOfMaps(MarkerKeys()), kOptional, "Markers. Absent: none."},

@@ -16,6 +16,8 @@ const KeyTable& MaterialKeys();
 const KeyTable& MassKeys();
 const KeyTable& FixedKeys();
 const KeyTable& CableKeys();
+const KeyTable& ChamberSurfaceKeys();
+const KeyTable& ChamberKeys();
 const KeyTable& RegionKeys();
 const KeyTable& MarkerKeys();
 const KeyTable& FeaturePointKeys();

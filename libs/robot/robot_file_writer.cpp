@@ -34,12 +34,16 @@ std::string UnitOf(double metres_per_unit) {
   return "mm";
 }
 
-std::string MeshText(const MeshSettings& mesh, const std::filesystem::path& folder) {
+std::string PathText(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const std::filesystem::path base = folder.empty() ? "." : folder;
-  const std::filesystem::path file =
-      std::filesystem::absolute(mesh.file).lexically_normal().lexically_proximate(
-          std::filesystem::absolute(base).lexically_normal());
-  return "mesh:\n  file: " + Quoted(file.generic_string()) +
+  return Quoted(std::filesystem::absolute(file)
+                    .lexically_normal()
+                    .lexically_proximate(std::filesystem::absolute(base).lexically_normal())
+                    .generic_string());
+}
+
+std::string MeshText(const MeshSettings& mesh, const std::filesystem::path& folder) {
+  return "mesh:\n  file: " + PathText(mesh.file, folder) +
          "\n  unit: " + UnitOf(mesh.metres_per_unit) +
          "\n  rotate_xyz_deg: " + Point(mesh.rotate_xyz_deg) +
          "\n  translate_m: " + Point(mesh.translate_m) + "\n";
@@ -86,6 +90,16 @@ std::string CableText(const CableSettings& cable) {
   return text;
 }
 
+std::string ChamberText(const ChamberSettings& chamber, const std::filesystem::path& folder) {
+  const ChamberSurface& surface = chamber.surface;
+  std::string wall = "inner_skin: " + std::to_string(surface.inner_skin);
+  if (!surface.physical_group.empty()) wall = "physical_group: " + Quoted(surface.physical_group);
+  if (!surface.file.empty()) wall = "file: " + PathText(surface.file, folder);
+  return "  - name: " + Quoted(chamber.name) + "\n    surface: {" + wall +
+         "}\n    dead_volume_m3: " + FormatNumber(chamber.dead_volume_m3) +
+         "\n    max_pressure_Pa: " + FormatNumber(chamber.max_pressure_Pa) + "\n";
+}
+
 std::string RegionText(const RegionSettings& region) {
   std::string text = "  - {name: " + Quoted(region.name) + ", " +
                      (region.mesh_group.empty() ? BoxText(region.box)
@@ -115,6 +129,8 @@ std::string FormatRobotFile(const RobotDescription& robot, const std::filesystem
   for (const Box& box : robot.fixed) text += "  - {" + BoxText(box) + "}\n";
   if (!robot.cables.empty()) text += "cables:\n";
   for (const CableSettings& cable : robot.cables) text += CableText(cable);
+  if (!robot.chambers.empty()) text += "chambers:\n";
+  for (const ChamberSettings& chamber : robot.chambers) text += ChamberText(chamber, folder);
   if (!robot.regions.empty()) text += "regions:\n";
   for (const RegionSettings& region : robot.regions) text += RegionText(region);
   if (!robot.markers.empty()) text += "markers:\n";

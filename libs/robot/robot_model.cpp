@@ -3,6 +3,9 @@
 
 #include "libs/robot/robot_model.hpp"
 
+#include <array>
+#include <cstdio>
+
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
@@ -27,15 +30,48 @@ std::vector<Cable> MakeCables(const RobotBody& body, const Eigen::VectorXd& rest
   return cables;
 }
 
+std::vector<Chamber> MakeChambers(const RobotBody& body, const Eigen::VectorXd& rest_m) {
+  std::vector<Chamber> chambers;
+  for (const BodyChamber& chamber : body.chambers) chambers.emplace_back(chamber.wall, rest_m);
+  return chambers;
+}
+
+/// What is converted has a rounding of its own, which no message should show.
+std::string Rounded(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+/// "12 N" of a cable, "120000 Pa" of a chamber.
+std::string ForceText(const ActuatorTraits& traits, double force_N) {
+  const double reported = traits.ReportedForce(force_N);
+  return (traits.IsChamber() ? Rounded(reported) : FormatNumber(reported)) + " " +
+         traits.force_unit();
+}
+
+std::string DisplacementText(const ActuatorTraits& traits, double displacement_m) {
+  const double reported = traits.ReportedDisplacement(displacement_m);
+  return (traits.IsChamber() ? Rounded(reported) : FormatNumber(reported)) + " " +
+         traits.displacement_unit();
+}
+
 }  // namespace
 
-CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
-                           CableInput preferred) {
+ActuatorCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
+                              CableInput preferred) {
   const bool by_tension =
       tension_N.has_value() && (preferred == CableInput::kTension || !displacement_m.has_value());
-  if (by_tension) return {CableCommand::Kind::kTension, *tension_N};
-  if (displacement_m.has_value()) return {CableCommand::Kind::kDisplacement, *displacement_m};
+  if (by_tension) return {ActuatorCommand::Kind::kTension, *tension_N};
+  if (displacement_m.has_value()) return {ActuatorCommand::Kind::kDisplacement, *displacement_m};
   return {};
+}
+
+ActuatorCommand ChooseCommand(const ActuatorTraits& traits, std::optional<double> displacement,
+                              std::optional<double> force, CableInput preferred) {
+  if (displacement) displacement = traits.Displacement_m(*displacement);
+  if (force) force = traits.Force_N(*force);
+  return ChooseCommand(displacement, force, preferred);
 }
 
 RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
@@ -44,24 +80,44 @@ RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
       locator_(body_.mesh),
       elastic_body_(body_.mesh, body_.materials, body_.material_of_cell),
       cables_(MakeCables(body_, elastic_body_.rest_m())),
+      chambers_(MakeChambers(body_, elastic_body_.rest_m())),
+      traits_(ActuatorsOf(body_)),
       linearisation_(elastic_body_, Constraints(further), body_.fixed, solver),
       static_solver_(linearisation_, settings),
-      cable_rest_length_m_(ToIndex(cables_.size())),
+      actuator_rest_m_(ActuatorCount()),
       gravity_m_s2_(body_.gravity_m_s2),
-      drives_(cables_.size()) {
-  for (int c = 0; c < CableCount(); ++c) cable_rest_length_m_[c] = cable(c).rest_length_m();
+      drives_(traits_.size()) {
+  for (int a = 0; a < ActuatorCount(); ++a) actuator_rest_m_[a] = actuator(a).rest_value_m();
+}
+
+const Actuator& RobotModel::actuator(int index) const {
+  if (index < CableCount()) return cable(index);
+  return chamber(index - CableCount());
 }
 
 ConstraintList RobotModel::Constraints(const ConstraintList& further) {
   ConstraintList constraints;
   for (Cable& cable : cables_) constraints.push_back(&cable);
+  for (Chamber& chamber : chambers_) constraints.push_back(&chamber);
   constraints.insert(constraints.end(), further.begin(), further.end());
   return constraints;
+}
+
+std::vector<std::string> RobotModel::ActuatorNames() const {
+  std::vector<std::string> names;
+  for (const ActuatorTraits& traits : traits_) names.push_back(traits.name);
+  return names;
 }
 
 std::vector<std::string> RobotModel::CableNames() const {
   std::vector<std::string> names;
   for (const BodyCable& cable : body_.cables) names.push_back(cable.name);
+  return names;
+}
+
+std::vector<std::string> RobotModel::ChamberNames() const {
+  std::vector<std::string> names;
+  for (const BodyChamber& chamber : body_.chambers) names.push_back(chamber.name);
   return names;
 }
 
@@ -78,7 +134,7 @@ fem::SurfacePatch RobotModel::Patch(const Eigen::Vector3d& position_m, double ra
 void RobotModel::SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m) {
   Cable& moved = cables_.at(At(cable));
   moved.SetPullPoint(pull_point_m, elastic_body_.rest_m());
-  cable_rest_length_m_[cable] = moved.rest_length_m();
+  actuator_rest_m_[cable] = moved.rest_length_m();
 }
 
 Status RobotModel::MoveEyelet(int cable_index, int eyelet, const Eigen::Vector3d& moved_m) {
@@ -94,7 +150,7 @@ Status RobotModel::MoveEyelet(int cable_index, int eyelet, const Eigen::Vector3d
                                            " m off its place: more than the model has room for"};
   }
   cables_[index].SetEyelet(eyelet, point.weights.weights, elastic_body_.rest_m());
-  cable_rest_length_m_[cable_index] = cables_[index].rest_length_m();
+  actuator_rest_m_[cable_index] = cables_[index].rest_length_m();
   body_.cables[index] = std::move(moved);
   return Status::Ok();
 }
@@ -109,12 +165,14 @@ void RobotModel::SetPoissonsRatio(int material, double poissons_ratio) {
   body_.materials.at(At(material)).poissons_ratio = poissons_ratio;
 }
 
-CableCommand RobotModel::CommandFor(int cable, std::optional<double> displacement_m,
-                                    std::optional<double> tension_N, CableInput preferred) const {
-  if (displacement_m) {
-    displacement_m = drives_.at(At(cable)).TakenIn_m(*displacement_m);
+ActuatorCommand RobotModel::CommandFor(int actuator, std::optional<double> displacement,
+                                       std::optional<double> force, CableInput preferred) const {
+  const ActuatorTraits& driven = traits(actuator);
+  ActuatorCommand command = ChooseCommand(driven, displacement, force, preferred);
+  if (command.kind == ActuatorCommand::Kind::kDisplacement) {
+    command.value = drives_.at(At(actuator)).TakenIn_m(command.value);
   }
-  return ChooseCommand(displacement_m, tension_N, preferred);
+  return command;
 }
 
 void RobotModel::AddWeight(Eigen::VectorXd& force_N) const {
@@ -124,26 +182,29 @@ void RobotModel::AddWeight(Eigen::VectorXd& force_N) const {
   if (history_force_N_.size() > 0) force_N += history_force_N_;
 }
 
-fem::ConstraintCommand RobotModel::ToConstraint(int cable_index,
-                                                const CableCommand& command) const {
-  const double limit = body_.cables[At(cable_index)].max_tension_N;
+fem::ConstraintCommand RobotModel::ToConstraint(int index, const ActuatorCommand& command) const {
+  const ActuatorTraits& limits = traits(index);
   switch (command.kind) {
-    case CableCommand::Kind::kNone: return {};
-    case CableCommand::Kind::kTension:
-      return {.mode = Mode::kMultiplier, .value = command.value, .max_multiplier_N = limit};
-    case CableCommand::Kind::kDisplacement:
+    case ActuatorCommand::Kind::kNone: return {};
+    case ActuatorCommand::Kind::kTension:
+      return {.mode = Mode::kMultiplier,
+              .value = command.value,
+              .max_multiplier_N = limits.most_force_N,
+              .min_multiplier_N = limits.least_force_N};
+    case ActuatorCommand::Kind::kDisplacement:
       return {.mode = Mode::kUpperBound,
-              .value = cable(cable_index).rest_length_m() - command.value,
-              .max_multiplier_N = limit,
-              .compliance_m_N = cable(cable_index).compliance_m_N()};
+              .value = actuator(index).rest_value_m() - command.value,
+              .max_multiplier_N = limits.most_force_N,
+              .min_multiplier_N = limits.least_force_N,
+              .compliance_m_N = actuator(index).compliance_m_N()};
   }
   PALPATE_CHECK(false, static_cast<int>(command.kind));
   return {};
 }
 
-fem::LoadState RobotModel::Loads(const std::vector<CableCommand>& cables,
+fem::LoadState RobotModel::Loads(const std::vector<ActuatorCommand>& cables,
                                  const std::vector<DeadLoad>& loads) const {
-  PALPATE_CHECK(static_cast<int>(cables.size()) == CableCount(), cables.size(), CableCount());
+  PALPATE_CHECK(static_cast<int>(cables.size()) == ActuatorCount(), cables.size(), ActuatorCount());
   fem::LoadState state;
   state.fixed_position_m = elastic_body_.rest_m();
   state.external_force_N = Eigen::VectorXd::Zero(state.fixed_position_m.size());
@@ -154,52 +215,63 @@ fem::LoadState RobotModel::Loads(const std::vector<CableCommand>& cables,
           load.weights.weights[k] * load.force_N;
     }
   }
-  for (int c = 0; c < CableCount(); ++c) {
+  for (int c = 0; c < ActuatorCount(); ++c) {
     state.commands.push_back(ToConstraint(c, cables[At(c)]));
   }
   state.commands.resize(linearisation_.constraints().size());
   return state;
 }
 
-fem::StaticResult RobotModel::Solve(const std::vector<CableCommand>& cables,
+/// A tension or pressure that its actuator cannot have.
+Status RobotModel::CheckForces(const std::vector<ActuatorCommand>& commands) const {
+  for (int c = 0; c < ActuatorCount(); ++c) {
+    const ActuatorCommand& command = commands[At(c)];
+    const ActuatorTraits& driven = traits(c);
+    if (command.kind != ActuatorCommand::Kind::kTension) continue;
+    if (command.value >= driven.least_force_N && command.value <= driven.most_force_N) continue;
+    return {StatusCode::kTensionLimit, driven.Title() + ": " +
+                                           (driven.IsChamber() ? "pressure " : "tension ") +
+                                           ForceText(driven, command.value) + " is not within " +
+                                           Rounded(driven.ReportedForce(driven.least_force_N)) +
+                                           " to " + ForceText(driven, driven.most_force_N)};
+  }
+  return Status::Ok();
+}
+
+fem::StaticResult RobotModel::Solve(const std::vector<ActuatorCommand>& cables,
                                     const std::vector<DeadLoad>& loads, fem::StaticState* state) {
   const fem::LoadState target = Loads(cables, loads);
-  for (int c = 0; c < CableCount(); ++c) {
-    const CableCommand& command = cables[At(c)];
-    const BodyCable& driven = body_.cables[At(c)];
-    if (command.kind == CableCommand::Kind::kTension &&
-        !(command.value >= 0.0 && command.value <= driven.max_tension_N)) {
-      fem::StaticResult refused;
-      refused.status =
-          Status(StatusCode::kTensionLimit,
-                 "cable " + driven.name + ": tension " + FormatNumber(command.value) +
-                     " N is not within 0 to " + FormatNumber(driven.max_tension_N) + " N");
-      return refused;
-    }
+  if (Status status = CheckForces(cables); !status.ok()) {
+    fem::StaticResult refused;
+    refused.status = std::move(status);
+    return refused;
   }
   fem::StaticResult result = static_solver_.Solve(target, state);
   if (result.status.code() != StatusCode::kTensionLimit) return result;
-  for (int c = 0; c < CableCount(); ++c) {
-    const CableCommand& command = cables[At(c)];
-    const BodyCable& driven = body_.cables[At(c)];
-    if (command.kind != CableCommand::Kind::kDisplacement ||
-        result.multipliers_N[c] < driven.max_tension_N) {
+  for (int c = 0; c < ActuatorCount(); ++c) {
+    const ActuatorCommand& command = cables[At(c)];
+    const ActuatorTraits& driven = traits(c);
+    if (command.kind != ActuatorCommand::Kind::kDisplacement ||
+        result.multipliers_N[c] < driven.most_force_N) {
       continue;
     }
-    result.status = Status(StatusCode::kTensionLimit,
-                           "cable " + driven.name + ": a displacement of " +
-                               FormatNumber(command.value) + " m needs more than max_tension_N (" +
-                               FormatNumber(driven.max_tension_N) + " N)");
+    const std::string asked = DisplacementText(driven, command.value);
+    result.status = Status(
+        StatusCode::kTensionLimit,
+        driven.Title() +
+            (driven.IsChamber() ? ": a change of volume of " : ": a displacement of ") + asked +
+            " needs more than " + (driven.IsChamber() ? "max_pressure_Pa (" : "max_tension_N (") +
+            ForceText(driven, driven.most_force_N) + ")");
   }
   return result;
 }
 
-CableState RobotModel::StateOfCable(int cable_index, const fem::StaticState& state) const {
-  const Cable& one = cable(cable_index);
+ActuatorState RobotModel::StateOfActuator(int index, const fem::StaticState& state) const {
+  const Actuator& one = actuator(index);
   const double length = one.Value(state.x_m);
-  const double tension_N = state.multipliers_N[cable_index];
+  const double tension_N = state.multipliers_N[index];
   return {.length_m = length,
-          .displacement_m = one.rest_length_m() - length + one.compliance_m_N() * tension_N,
+          .displacement_m = one.rest_value_m() - length + one.compliance_m_N() * tension_N,
           .tension_N = tension_N};
 }
 

@@ -15,30 +15,38 @@
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/static_solver.hpp"
 #include "libs/fem/surface_patch.hpp"
+#include "libs/robot/actuator.hpp"
 #include "libs/robot/cable.hpp"
+#include "libs/robot/chamber.hpp"
 #include "libs/robot/robot_body.hpp"
 
 namespace palpate::robot {
 
-/// Boundary condition of one cable.
-struct CableCommand {
+/// Boundary condition of one actuator, a cable or a chamber (actuator.hpp).
+struct ActuatorCommand {
   enum class Kind {
-    kNone,          ///< free: no tension
-    kDisplacement,  ///< m pulled in, counted from the undeformed body; the cable may be slack
-    kTension,       ///< N, >= 0
+    kNone,  ///< free: no tension; a chamber is open to the air
+    /// m pulled in, counted from the undeformed body; the cable may be slack. Of a chamber its
+    /// change of volume over the area of its piston.
+    kDisplacement,
+    kTension,  ///< N, >= 0; of a chamber its pressure above ambient times that area, of either sign
   };
   Kind kind = Kind::kNone;
   double value = 0.0;
 
-  bool operator==(const CableCommand&) const = default;
+  bool operator==(const ActuatorCommand&) const = default;
 };
 
-/// Which input of a cable is imposed where both its displacement and its tension are known.
+/// Which input of an actuator is imposed where both its displacement and its tension are known.
 enum class CableInput { kDisplacement, kTension };
 
-/// The command for what is known of one cable; kNone where nothing is.
-CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
-                           CableInput preferred);
+/// The command for what is known of one actuator; kNone where nothing is.
+ActuatorCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
+                              CableInput preferred);
+
+/// The same for what the actuator reports (ActuatorTraits).
+ActuatorCommand ChooseCommand(const ActuatorTraits& traits, std::optional<double> displacement,
+                              std::optional<double> force, CableInput preferred);
 
 /// Errors of an actuator: it pulls in (1 + gain) u + offset_m where it reports the displacement u.
 struct DriveCalibration {
@@ -48,9 +56,10 @@ struct DriveCalibration {
   double TakenIn_m(double displacement_m) const { return (1.0 + gain) * displacement_m + offset_m; }
 };
 
-/// What one cable does in a state.
-struct CableState {
-  double length_m = 0.0;
+/// What one actuator does in a state, as the piston that stands for it where it is a chamber
+/// (ActuatorTraits converts).
+struct ActuatorState {
+  double length_m = 0.0;        ///< Actuator::Value
   double displacement_m = 0.0;  ///< of the body: rest length - length; slack: more than commanded
   double tension_N = 0.0;
 };
@@ -68,12 +77,12 @@ struct StrainHistory {
       largest_J_m3;  ///< [elements] largest energy density so far; empty: never strained
 };
 
-/// A robot to compute with: body, cables and solvers, put together from a RobotBody. Static
-/// equilibria of the paper's eq. (1). Not copied or moved: its parts point at each other.
+/// A robot to compute with: body, cables, chambers and solvers, put together from a RobotBody.
+/// Static equilibria of the paper's eq. (1). Not copied or moved: its parts point at each other.
 class RobotModel {
  public:
-  /// `further` constraints, which must outlive it, come after those of the cables; Loads leaves
-  /// them off.
+  /// Constraints are the cables, then the chambers, then `further`, which must outlive it; Loads
+  /// leaves these off.
   explicit RobotModel(RobotBody body, const fem::StaticSettings& settings = {},
                       const fem::SolverSettings& solver = {},
                       const std::vector<fem::ScalarConstraint*>& further = {});
@@ -86,9 +95,18 @@ class RobotModel {
   fem::StaticSolver& static_solver() { return static_solver_; }
   int CableCount() const { return static_cast<int>(cables_.size()); }
   const Cable& cable(int index) const { return cables_[At(index)]; }
-  const Eigen::VectorXd& cable_rest_length_m() const { return cable_rest_length_m_; }  ///< [a]
+  int ChamberCount() const { return static_cast<int>(chambers_.size()); }
+  const Chamber& chamber(int index) const { return chambers_[At(index)]; }
+  /// Cables, then chambers.
+  int ActuatorCount() const { return static_cast<int>(traits_.size()); }
+  const Actuator& actuator(int index) const;
+  const ActuatorTraits& traits(int actuator) const { return traits_[At(actuator)]; }
+  const std::vector<ActuatorTraits>& traits() const { return traits_; }
+  const Eigen::VectorXd& actuator_rest_m() const { return actuator_rest_m_; }  ///< [a]
 
+  std::vector<std::string> ActuatorNames() const;
   std::vector<std::string> CableNames() const;
+  std::vector<std::string> ChamberNames() const;
   std::vector<std::string> MarkerNames() const;
   /// A patch of the surface for loads and contacts (fem/surface_patch.hpp).
   fem::SurfacePatch Patch(const Eigen::Vector3d& position_m, double radius_m) const;
@@ -115,13 +133,14 @@ class RobotModel {
   /// kInvalidInput and moves nothing where the body has no room for it (GiveEyeletsRoom).
   Status MoveEyelet(int cable, int eyelet, const Eigen::Vector3d& moved_m);
   const fem::PointLocator& locator() const { return locator_; }
-  /// Offset and gain by which measured displacements of a cable are corrected; at first none.
+  /// Offset and gain by which measured displacements of an actuator are corrected; at first none.
   void SetDrive(int cable, const DriveCalibration& drive) { drives_.at(At(cable)) = drive; }
-  const std::vector<DriveCalibration>& drives() const { return drives_; }  ///< [cables]
-  /// The command for the measured inputs of a cable (ChooseCommand), corrected by its actuator's
-  /// offset and gain.
-  CableCommand CommandFor(int cable, std::optional<double> displacement_m,
-                          std::optional<double> tension_N, CableInput preferred) const;
+  const std::vector<DriveCalibration>& drives() const { return drives_; }  ///< [actuators]
+  /// The command for what is measured of an actuator (ChooseCommand), in what it reports: m and N
+  /// of a cable, change of volume m3 and pressure Pa of a chamber. The displacement is corrected by
+  /// its drive's offset and gain.
+  ActuatorCommand CommandFor(int actuator, std::optional<double> displacement,
+                             std::optional<double> force, CableInput preferred) const;
 
   /// Gravity in the robot frame; at first the robot file's.
   void SetGravity(const Eigen::Vector3d& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
@@ -136,19 +155,21 @@ class RobotModel {
 
   /// Adds each node's weight, and the history force, to `force_N` [3n].
   void AddWeight(Eigen::VectorXd& force_N) const;
-  /// Loads of weight, cables and `loads` for the static solver. Checks the number of commands.
-  fem::LoadState Loads(const std::vector<CableCommand>& cables,
+  /// Loads of weight, actuators and `loads` for the static solver. Checks the number of commands.
+  fem::LoadState Loads(const std::vector<ActuatorCommand>& cables,
                        const std::vector<DeadLoad>& loads) const;
-  fem::ConstraintCommand ToConstraint(int cable, const CableCommand& command) const;
+  fem::ConstraintCommand ToConstraint(int actuator, const ActuatorCommand& command) const;
 
   fem::StaticState RestState() const { return static_solver_.RestState(); }
-  /// The balance of weight, cables and loads, reached from `state` on. Failures name the cable.
-  fem::StaticResult Solve(const std::vector<CableCommand>& cables,
+  /// The balance of weight, actuators and loads, reached from `state` on. Failures name the
+  /// actuator.
+  fem::StaticResult Solve(const std::vector<ActuatorCommand>& cables,
                           const std::vector<DeadLoad>& loads, fem::StaticState* state);
 
-  CableState StateOfCable(int cable, const fem::StaticState& state) const;
+  ActuatorState StateOfActuator(int actuator, const fem::StaticState& state) const;
 
  private:
+  Status CheckForces(const std::vector<ActuatorCommand>& commands) const;
   std::vector<fem::ScalarConstraint*> Constraints(
       const std::vector<fem::ScalarConstraint*>& further);
 
@@ -156,11 +177,13 @@ class RobotModel {
   fem::PointLocator locator_;
   fem::ElasticBody elastic_body_;
   std::vector<Cable> cables_;
+  std::vector<Chamber> chambers_;
+  std::vector<ActuatorTraits> traits_;
   fem::Linearisation linearisation_;
   fem::StaticSolver static_solver_;
-  Eigen::VectorXd cable_rest_length_m_;
+  Eigen::VectorXd actuator_rest_m_;
   Eigen::Vector3d gravity_m_s2_;
-  std::vector<DriveCalibration> drives_;  ///< [cables]
+  std::vector<DriveCalibration> drives_;  ///< [actuators]
   Eigen::VectorXd history_force_N_;       ///< [3n], or empty
   StrainHistory strain_history_;
 };

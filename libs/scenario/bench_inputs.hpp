@@ -20,7 +20,8 @@ struct ToolPose {
 
 /// What is done to the robot at one instant.
 struct BenchInputs {
-  /// [cables of the robot file] m, commanded displacements; NaN: the cable is free.
+  /// [actuators of the robot file] commands: displacements of the cables, m (NaN: the cable is
+  /// free), then pressures of the chambers above ambient, Pa (NaN: open to the air).
   Eigen::VectorXd displacement_m;
   std::vector<ToolPose> tools;      ///< those that are there
   std::vector<HungWeight> weights;  ///< those that hang now

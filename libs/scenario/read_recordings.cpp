@@ -14,6 +14,7 @@ namespace palpate::scenario {
 namespace {
 
 constexpr std::string_view kDisplacement = ".displacement_m";
+constexpr std::string_view kPressure = ".pressure_Pa";
 constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
 
 /// `t_s` of an entry of a list: within the recording, and later than that of the entry before it
@@ -27,31 +28,36 @@ double ReadTime(MapReader& reader, double duration_s, double last_s, bool may_eq
   return t_s;
 }
 
-/// The cables that a row names, in its order.
-std::vector<std::string> CablesOf(const ConfigNode& row) {
-  std::vector<std::string> cables;
+/// The actuators that a row names, in its order.
+CommandScript NamesOfRow(const ConfigNode& row) {
+  CommandScript names;
   for (const auto& [key, node] : row.entries) {
     if (key == "t_s") continue;
-    if (key.size() <= kDisplacement.size() || !key.ends_with(kDisplacement)) {
+    const bool of_chamber = key.ends_with(kPressure);
+    const std::string_view suffix = of_chamber ? kPressure : kDisplacement;
+    if (key.size() <= suffix.size() || !key.ends_with(suffix)) {
       throw InputError(node.key_where, "unknown key '" + node.path +
-                                           "': a command is '<cable>.displacement_m', in metres");
+                                           "': a command is '<cable>.displacement_m', in metres, "
+                                           "or '<chamber>.pressure_Pa', in pascals");
     }
-    cables.push_back(key.substr(0, key.size() - kDisplacement.size()));
+    names.cables.push_back(key.substr(0, key.size() - suffix.size()));
+    names.of_chamber.push_back(of_chamber);
   }
-  return cables;
+  return names;
 }
 
-CommandRow ReadCommandRow(const ConfigNode& node, const std::vector<std::string>& cables,
-                          double duration_s, double last_s) {
+CommandRow ReadCommandRow(const ConfigNode& node, const CommandScript& names, double duration_s,
+                          double last_s) {
   MapReader reader(node, CommandRowKeys());
   CommandRow row;
   row.t_s = ReadTime(reader, duration_s, last_s);
-  row.displacement_m.resize(ToIndex(cables.size()));
-  for (std::size_t i = 0; i < cables.size(); ++i) {
-    const std::string key = cables[i] + std::string(kDisplacement);
+  row.displacement_m.resize(ToIndex(names.cables.size()));
+  for (std::size_t i = 0; i < names.cables.size(); ++i) {
+    const std::string key =
+        names.cables[i] + std::string(names.of_chamber[i] ? kPressure : kDisplacement);
     const ConfigNode* value = node.Find(key);
     if (value == nullptr) {
-      Refuse(node, "'" + key + "' is missing: every row names the cables of the first (a cable " +
+      Refuse(node, "'" + key + "' is missing: every row names the actuators of the first (one " +
                        "that is not driven has the value ~)");
     }
     double& displacement_m = row.displacement_m[ToIndex(i)];
@@ -65,11 +71,12 @@ CommandRow ReadCommandRow(const ConfigNode& node, const std::vector<std::string>
 CommandScript ReadCommands(const ConfigNode& node, double duration_s) {
   CommandScript script;
   double last_s = -1.0;
-  for (const ConfigNode& item : ReadList(node, "{t_s, <cable>.displacement_m}")) {
-    if (script.rows.empty()) script.cables = CablesOf(item);
-    if (script.cables.empty()) Refuse(item, "names no cable");
-    CablesOf(item);
-    script.rows.push_back(ReadCommandRow(item, script.cables, duration_s, last_s));
+  for (const ConfigNode& item :
+       ReadList(node, "{t_s, <cable>.displacement_m, <chamber>.pressure_Pa}")) {
+    const CommandScript names = NamesOfRow(item);
+    if (script.rows.empty()) script = names;
+    if (script.cables.empty()) Refuse(item, "names neither a cable nor a chamber");
+    script.rows.push_back(ReadCommandRow(item, script, duration_s, last_s));
     last_s = script.rows.back().t_s;
   }
   return script;

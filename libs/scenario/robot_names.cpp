@@ -8,6 +8,7 @@ namespace palpate::scenario {
 RobotNames NamesOf(const robot::RobotDescription& robot) {
   RobotNames names;
   for (const auto& cable : robot.cables) names.cables.push_back(cable.name);
+  for (const auto& chamber : robot.chambers) names.chambers.push_back(chamber.name);
   for (const auto& region : robot.regions) names.regions.push_back(region.name);
   for (const auto& marker : robot.markers) names.markers.push_back(marker.name);
   names.poissons_ratio = robot.material.poissons_ratio;

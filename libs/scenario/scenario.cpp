@@ -77,14 +77,23 @@ const Tool& Scenario::ToolNamed(const std::string& wanted) const {
   return *found;
 }
 
+std::vector<std::string> RobotNames::Actuators() const {
+  std::vector<std::string> names = cables;
+  names.insert(names.end(), chambers.begin(), chambers.end());
+  return names;
+}
+
 void CheckAgainst(const Scenario& scenario, const RobotNames& robot) {
   for (const Effect& effect : scenario.effects) CheckEffect(scenario, effect, robot);
   for (const RecordingPlan& plan : scenario.recordings) {
-    for (const std::string& cable : plan.commands.cables) {
-      if (std::find(robot.cables.begin(), robot.cables.end(), cable) != robot.cables.end())
-        continue;
-      throw InputError(plan.location, "recording '" + plan.name + "': the robot has no cable '" +
-                                          cable + "'" + DidYouMean(cable, robot.cables));
+    for (std::size_t c = 0; c < plan.commands.cables.size(); ++c) {
+      const std::string& name = plan.commands.cables[c];
+      const bool of_chamber = c < plan.commands.of_chamber.size() && plan.commands.of_chamber[c];
+      const std::vector<std::string>& names = of_chamber ? robot.chambers : robot.cables;
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      throw InputError(plan.location, "recording '" + plan.name + "': the robot has no " +
+                                          (of_chamber ? "chamber '" : "cable '") + name + "'" +
+                                          DidYouMean(name, names));
     }
   }
 }

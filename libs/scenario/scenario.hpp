@@ -78,18 +78,21 @@ struct HungWeight {
   double patch_radius_m = 0.0;
 };
 
-/// Commanded displacements at one time, before any effect. Linear between rows. NaN: the cable is
-/// free (it has no tension).
+/// Commands at one time, before any effect. Linear between rows. NaN: the cable is free (it has no
+/// tension), the chamber open to the air.
 struct CommandRow {
   double t_s = 0.0;
-  Eigen::VectorXd displacement_m;  ///< [cables] in the order of CommandScript::cables
+  /// [commands] in the order of CommandScript::cables: displacement of a cable, m; pressure of a
+  /// chamber above ambient, Pa.
+  Eigen::VectorXd displacement_m;
 };
 
 struct CommandScript {
-  std::vector<std::string> cables;  ///< those with a command
-  std::vector<CommandRow> rows;     ///< time rising, at least one where cables is not empty
+  std::vector<std::string> cables;    ///< names of the cables and chambers with a command
+  std::vector<bool> of_chamber = {};  ///< [commands]
+  std::vector<CommandRow> rows;       ///< time rising, at least one where cables is not empty
 
-  Eigen::VectorXd At(double t_s) const;  ///< [cables]
+  Eigen::VectorXd At(double t_s) const;  ///< [commands]
 };
 
 struct RecordingPlan {
@@ -181,10 +184,14 @@ Scenario ReadScenario(const std::filesystem::path& file, const ConfigLoader& loa
 /// What a scenario has to know of a robot file.
 struct RobotNames {
   std::vector<std::string> cables;
+  std::vector<std::string> chambers = {};
   std::vector<std::string> regions;
   std::vector<std::string> markers;
   /// Of the material, to which the tolerance is added. NaN: unknown, nu has no tolerance.
   double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
+
+  /// Cables, then chambers: the order of all commands.
+  std::vector<std::string> Actuators() const;
 };
 
 /// Throws InputError, at the effect's or the recording's place in the file, where the scenario

@@ -27,6 +27,7 @@ constexpr NumberRule kPoisson{.min = 0.0, .max = 0.4999};
 constexpr NumberRule kTimeStep{.min = 0.0, .max = 1.0, .min_open = true};
 constexpr NumberRule kDuration{.min = 0.0, .max = 86400.0, .min_open = true};
 constexpr NumberRule kCommand{.min = -0.5, .max = 0.5};
+constexpr NumberRule kPressure{.min = -101325.0, .max = 1e6};
 constexpr NumberRule kMass{.min = 0.0, .max = 10.0};
 constexpr NumberRule kPatchRadius{.min = 0.0, .max = 1.0};
 constexpr NumberRule kTilt{.min = -180.0, .max = 180.0};
@@ -262,12 +263,14 @@ const KeyTable& CommandRowKeys() {
   static const KeyTable keys{
       .title = "row of commands",
       .about =
-          "Commanded displacements at one time: linear between rows, held outside. Each row "
-          "names the cables of the first. A cable in no row is free.",
+          "Commands at one time: linear between rows, held outside. Each row names the actuators "
+          "of the first. A cable in no row is free, a chamber open to the air.",
       .keys = {{"t_s", value::Real(kNonNegative), kRequired,
                 "Time from the beginning of the recording. It must rise, up to `duration_s`."}},
       .open_keys = {{"<cable>.displacement_m", value::OrNull(value::Real(kCommand)), kOptional,
-                     "Displacement of the actuator. `~`: the cable is free."}}};
+                     "Displacement of the actuator. `~`: the cable is free."},
+                    {"<chamber>.pressure_Pa", value::OrNull(value::Real(kPressure)), kOptional,
+                     "Pressure above ambient. `~`: the chamber is open to the air."}}};
   return keys;
 }
 
@@ -324,7 +327,7 @@ const KeyTable& RecordingPlanKeys() {
              Default("free"), "As in recording.yaml (docs/experiment.md)."},
             {"duration_s", value::Real(kDuration), kRequired, "Duration."},
             {"commands", value::ListOfMaps(CommandRowKeys()), kOptional,
-             "Commands. Absent: all cables are free."},
+             "Commands. Absent: all cables are free, all chambers open."},
             {"tools", value::ListOfMaps(ToolPathKeys()), kOptional, "Paths of tools."},
             {"weights", value::ListOfMaps(HungWeightKeys()), kOptional, "Known weights."},
             {"base_tilt_deg", value::Numbers(kTilt, 2, 2), Default(defaults.base_tilt_deg),

@@ -24,7 +24,8 @@ struct Moment {
 /// tilt.
 class Schedule {
  public:
-  /// `cables` are the robot's, in its order. Throws InputError for a command to none of them.
+  /// `cables`: names of the robot's actuators (RobotNames::Actuators). Throws InputError for a
+  /// command to none of them.
   Schedule(Scenario scenario, std::vector<std::string> cables);
 
   const Scenario& scenario() const { return scenario_; }

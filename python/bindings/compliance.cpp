@@ -60,7 +60,7 @@ std::shared_ptr<ComplianceMatrices> ComputeCompliance(const Equilibrium& equilib
     robot::Compliance compliance(linearisation, robot::RowsOfPoints(WeightsOf(observed)));
     compliance.SetForces(DirectionsOf(loaded));
     const auto forces = static_cast<Eigen::Index>(compliance.forces().size());
-    compliance.Compute(state.x_m, model.cable_rest_length_m(), state.multipliers_N,
+    compliance.Compute(state.x_m, model.actuator_rest_m(), state.multipliers_N,
                        Eigen::VectorXd::Zero(forces));
     *found = {compliance.W_ea(), compliance.W_ef(),           compliance.W_aa(),
               compliance.W_af(), compliance.delta_e_free_m(), compliance.delta_a_free_m()};

@@ -34,14 +34,14 @@ class WatchedSolver {
 };
 
 void ReadOff(const robot::RobotModel& model, Equilibrium* found) {
-  const int cables = model.CableCount();
+  const int cables = model.ActuatorCount();
   found->tension_N.resize(cables);
   found->displacement_m.resize(cables);
   found->length_m.resize(cables);
   for (int c = 0; c < cables; ++c) {
-    const robot::CableState cable = model.StateOfCable(c, found->state);
-    found->tension_N[c] = cable.tension_N;
-    found->displacement_m[c] = cable.displacement_m;
+    const robot::ActuatorState cable = model.StateOfActuator(c, found->state);
+    found->tension_N[c] = model.traits(c).ReportedForce(cable.tension_N);
+    found->displacement_m[c] = model.traits(c).ReportedDisplacement(cable.displacement_m);
     found->length_m[c] = cable.length_m;
   }
   const auto& markers = model.body().markers;

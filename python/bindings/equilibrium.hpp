@@ -19,7 +19,7 @@ namespace palpate::python {
 /// A static equilibrium of one robot, with what it was solved for.
 struct Equilibrium {
   std::shared_ptr<Robot> robot;
-  std::vector<robot::CableCommand> commands;
+  std::vector<robot::ActuatorCommand> commands;
   fem::StaticState state;
   fem::StaticResult result;
   double time_s = 0.0;  ///< in C++, without the waiting for another thread

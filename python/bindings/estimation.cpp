@@ -89,7 +89,7 @@ class MarkerEstimator {
     const auto tensions = robot_->ReadCables(tension_N, "tension_N");
     const robot::CableInput preferred = ReadCableInput(cable_input);
     for (std::size_t c = 0; c < displacements.size(); ++c) {
-      if (tensions[c] && *tensions[c] < 0.0) {
+      if (!robot_->traits(c).IsChamber() && tensions[c] && *tensions[c] < 0.0) {
         throw InputError("tension_N of cable " + robot_->cable_names()[c] +
                          " is negative: a cable cannot push");
       }
@@ -111,8 +111,10 @@ class MarkerEstimator {
     estimate->tension_N.resize(cables);
     estimate->displacement_m.resize(cables);
     for (Eigen::Index c = 0; c < cables; ++c) {
-      estimate->tension_N[c] = forces.cables[At(c)].tension_N;
-      estimate->displacement_m[c] = forces.cables[At(c)].displacement_m;
+      const robot::ActuatorTraits& traits = robot_->traits(At(c));
+      estimate->tension_N[c] = traits.ReportedForce(forces.cables[At(c)].tension_N);
+      estimate->displacement_m[c] =
+          traits.ReportedDisplacement(forces.cables[At(c)].displacement_m);
     }
     return estimate;
   }

@@ -74,7 +74,7 @@ py::array Markers(const py::object& self) {
 
 /// Columns of actuation.csv by cable, views.
 std::map<std::string, py::object> Columns(const py::object& self,
-                                          experiment::CableQuantity quantity) {
+                                          experiment::ActuatorQuantity quantity) {
   const auto& recording = self.cast<const Recording&>();
   std::map<std::string, py::object> columns;
   if (!recording.data().actuation) return columns;
@@ -138,11 +138,12 @@ void BindRecording(py::module_& module) {
                              })
       .def_property_readonly("displacement_m",
                              [](const py::object& self) {
-                               return Columns(self, experiment::CableQuantity::kDisplacement);
+                               return Columns(self, experiment::ActuatorQuantity::kDisplacement);
                              })
-      .def_property_readonly(
-          "tension_N",
-          [](const py::object& self) { return Columns(self, experiment::CableQuantity::kTension); })
+      .def_property_readonly("tension_N",
+                             [](const py::object& self) {
+                               return Columns(self, experiment::ActuatorQuantity::kTension);
+                             })
       .def_property_readonly("loads", [](const Recording& one) { return one.data().loads; })
       .def_property_readonly("depth_images",
                              [](const Recording& one) { return Files(one.data().depth_images); })

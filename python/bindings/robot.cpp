@@ -38,7 +38,7 @@ Robot::Robot(const std::string& robot, const std::string& calibration,
   }
   model_ = std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver_);
   if (!calibration.empty()) robot::ApplyCalibration(calibration_, model_.get());
-  cable_names_ = model_->CableNames();
+  cable_names_ = model_->ActuatorNames();
   marker_names_ = model_->MarkerNames();
   part_names_ = calibration::PartNames(model_->body());
 }
@@ -91,18 +91,20 @@ std::vector<std::optional<double>> Robot::ReadCables(const CableValues& values,
   return read;
 }
 
-std::vector<robot::CableCommand> CommandsOf(const Robot& robot, const CableValues& displacement_m,
-                                            const CableValues& tension_N,
-                                            robot::CableInput preferred) {
+std::vector<robot::ActuatorCommand> CommandsOf(const Robot& robot,
+                                               const CableValues& displacement_m,
+                                               const CableValues& tension_N,
+                                               robot::CableInput preferred) {
   const auto displacements = robot.ReadCables(displacement_m, "displacement_m");
   const auto tensions = robot.ReadCables(tension_N, "tension_N");
-  std::vector<robot::CableCommand> commands;
+  std::vector<robot::ActuatorCommand> commands;
   for (std::size_t c = 0; c < displacements.size(); ++c) {
-    if (tensions[c] && *tensions[c] < 0.0) {
+    if (!robot.traits(c).IsChamber() && tensions[c] && *tensions[c] < 0.0) {
       throw InputError("tension_N of cable " + robot.cable_names()[c] + " is " +
                        FormatNumber(*tensions[c]) + ": a cable cannot push");
     }
-    commands.push_back(robot::ChooseCommand(displacements[c], tensions[c], preferred));
+    commands.push_back(
+        robot::ChooseCommand(robot.traits(c), displacements[c], tensions[c], preferred));
   }
   return commands;
 }

@@ -36,7 +36,11 @@ class Robot {
   const robot::RobotBody& body() const { return model_->body(); }
   const std::string& file() const { return file_; }
   const robot::CalibrationFile& calibration() const { return calibration_; }
+  /// Of cables, then of chambers.
   const std::vector<std::string>& cable_names() const { return cable_names_; }
+  const robot::ActuatorTraits& traits(std::size_t actuator) const {
+    return model_->traits()[actuator];
+  }
   const std::vector<std::string>& marker_names() const { return marker_names_; }
   /// "body", then the regions: the order of RobotBody::materials.
   const std::vector<std::string>& part_names() const { return part_names_; }
@@ -73,9 +77,10 @@ class Robot {
 
 /// Boundary conditions of the cables for measured or wanted inputs, as `palpate solve` takes them.
 /// Throws InputError also for a negative tension.
-std::vector<robot::CableCommand> CommandsOf(const Robot& robot, const CableValues& displacement_m,
-                                            const CableValues& tension_N,
-                                            robot::CableInput preferred);
+std::vector<robot::ActuatorCommand> CommandsOf(const Robot& robot,
+                                               const CableValues& displacement_m,
+                                               const CableValues& tension_N,
+                                               robot::CableInput preferred);
 
 /// "displacement" or "tension". Throws InputError.
 robot::CableInput ReadCableInput(const std::string& word);

@@ -21,7 +21,7 @@ namespace palpate::benchmarks {
 namespace {
 
 using calibration::CalibrationFrame;
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 constexpr double kNoise_m = 3e-4;
 constexpr int kManyFrames = 10;
@@ -72,7 +72,7 @@ class CalibrationScene {
 
  private:
   void SeePulled(int frame) {
-    std::vector<robot::CableCommand> cables;
+    std::vector<robot::ActuatorCommand> cables;
     for (int c = 0; c < truth_.CableCount(); ++c) {
       cables.push_back({Kind::kDisplacement, 1e-3 * (3.0 + (3 * frame + 2 * c) % 7)});
     }
@@ -82,10 +82,10 @@ class CalibrationScene {
       loads.push_back({truth_.Patch({0.0, 0.0, 0.125}, 0.005).weights, force_N});
     }
     See("frame " + std::to_string(frame), cables, loads);
-    for (robot::CableCommand& cable : frames_.back().cables) cable.value -= kActuatorOffset_m;
+    for (robot::ActuatorCommand& cable : frames_.back().cables) cable.value -= kActuatorOffset_m;
   }
 
-  void See(const std::string& name, const std::vector<robot::CableCommand>& cables,
+  void See(const std::string& name, const std::vector<robot::ActuatorCommand>& cables,
            const std::vector<robot::DeadLoad>& loads) {
     fem::StaticState state = truth_.RestState();
     const fem::StaticResult result = truth_.Solve(cables, loads, &state);

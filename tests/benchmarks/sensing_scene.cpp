@@ -89,9 +89,9 @@ SensingScene::SensingScene(const SensingScene& computed, const Settings& setting
 }
 
 void SensingScene::AddFrame(int step, fem::StaticState* equilibrium) {
-  using Kind = robot::CableCommand::Kind;
+  using Kind = robot::ActuatorCommand::Kind;
   Frame frame;
-  frame.cables.assign(static_cast<size_t>(model_.CableCount()),
+  frame.cables.assign(static_cast<size_t>(model_.ActuatorCount()),
                       {.kind = Kind::kDisplacement, .value = kCableAtRest_m});
   if (!frame.cables.empty()) frame.cables.front().value += step * kCableStep_m;
   const Eigen::VectorXd forces_N = ContactForces_N(step);

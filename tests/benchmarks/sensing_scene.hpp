@@ -48,7 +48,7 @@ class SensingScene {
 
  private:
   struct Frame {
-    std::vector<robot::CableCommand> cables;
+    std::vector<robot::ActuatorCommand> cables;
     force_estimation::RowTargets targets;
   };
 

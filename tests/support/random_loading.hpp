@@ -32,11 +32,11 @@ struct RandomLoading {
   double patch_radius_m = 0.005;
 
   /// The cables after frame k of 1 to `frames`.
-  std::vector<robot::CableCommand> Cables(int k) const {
-    std::vector<robot::CableCommand> commands;
+  std::vector<robot::ActuatorCommand> Cables(int k) const {
+    std::vector<robot::ActuatorCommand> commands;
     for (const double cable_m : cables_m) {
       if (cable_m > 0.0) {
-        commands.push_back({robot::CableCommand::Kind::kDisplacement, cable_m * k / frames});
+        commands.push_back({robot::ActuatorCommand::Kind::kDisplacement, cable_m * k / frames});
       } else {
         commands.emplace_back();
       }
@@ -54,7 +54,7 @@ inline RandomLoading MakeRandomLoading(const robot::RobotModel& model, int index
   const auto uniform = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };
   RandomLoading loading;
   loading.frames = 1 + static_cast<int>(8.0 * uniform());
-  for (int c = 0; c < model.CableCount(); ++c) {
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     const bool driven = uniform() < 0.5;
     const double cable_m = 0.020 * uniform();
     loading.cables_m.push_back(driven ? cable_m : 0.0);

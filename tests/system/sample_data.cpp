@@ -33,9 +33,9 @@ void Thin(experiment::MarkerTracks& tracks, size_t count) {
 std::vector<std::optional<Eigen::Vector3d>> MarkerPositions(robot::RobotModel& model,
                                                             double north_m,
                                                             const Eigen::Vector3d& top_force_N) {
-  std::vector<robot::CableCommand> cables(static_cast<size_t>(model.CableCount()));
-  cables[0] = {robot::CableCommand::Kind::kDisplacement, north_m};
-  cables[1] = {robot::CableCommand::Kind::kTension, 1.0};
+  std::vector<robot::ActuatorCommand> cables(static_cast<size_t>(model.ActuatorCount()));
+  cables[0] = {robot::ActuatorCommand::Kind::kDisplacement, north_m};
+  cables[1] = {robot::ActuatorCommand::Kind::kTension, 1.0};
   fem::StaticState state = model.RestState();
   const auto patch = model.Patch({0.0, 0.0, 0.12}, 0.006);
   EXPECT_TRUE(model.Solve(cables, {{patch.weights, top_force_N}}, &state).status.ok());
@@ -67,9 +67,9 @@ Sample WriteFourLegSample(const TestFolder& folder) {
   recording.markers.emplace();
   recording.markers->names = model.MarkerNames();
   recording.actuation.emplace();
-  using Quantity = experiment::CableQuantity;
-  recording.actuation->columns = {{model.CableNames()[0], Quantity::kDisplacement, {}, {}},
-                                  {model.CableNames()[1], Quantity::kTension, {}, {}}};
+  using Quantity = experiment::ActuatorQuantity;
+  recording.actuation->columns = {{model.ActuatorNames()[0], Quantity::kDisplacement, {}, {}},
+                                  {model.ActuatorNames()[1], Quantity::kTension, {}, {}}};
   // Rows of actuation.csv at every second frame only: the inputs between them are interpolated.
   for (int i = 0; i <= 4; ++i) {
     const double t_s = 0.1 * i;

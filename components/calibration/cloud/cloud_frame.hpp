@@ -14,9 +14,9 @@ namespace palpate::calibration {
 /// A depth camera's cloud of the robot at rest at one setting of its cables, and the known inputs.
 /// Points of other objects (tools, base, table) are allowed.
 struct CloudFrame {
-  std::string name;                              ///< for messages
-  rgbd::SensedCloud cloud;                       ///< camera frame; colours are not used
-  std::vector<robot::CableCommand> cables = {};  ///< one for each cable; kNone: unknown tension
+  std::string name;                                 ///< for messages
+  rgbd::SensedCloud cloud;                          ///< camera frame; colours are not used
+  std::vector<robot::ActuatorCommand> cables = {};  ///< one for each cable; kNone: unknown tension
   std::vector<robot::DeadLoad> loads = {};
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< robot frame
 };

@@ -79,9 +79,9 @@ Status CheckCloud(const robot::RobotModel& model, const CloudFrame& frame,
                          "is not above 0");
     }
   }
-  if (static_cast<int>(frame.cables.size()) != model.CableCount()) {
+  if (static_cast<int>(frame.cables.size()) != model.ActuatorCount()) {
     return Invalid(frame, std::to_string(frame.cables.size()) + " cable inputs, the robot has " +
-                              std::to_string(model.CableCount()) + " cables");
+                              std::to_string(model.ActuatorCount()) + " cables");
   }
   if (cloud.Count() < settings.least_points) {
     return {StatusCode::kNoRobotSeen, frame.name + ": " + std::to_string(cloud.Count()) +

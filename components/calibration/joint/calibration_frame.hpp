@@ -38,7 +38,7 @@ struct CalibrationFrame {
   std::vector<MarkerSighting> markers = {};
   bool by_depth_camera = true;  ///< the markers have the depth bias
   std::vector<SurfaceSighting> surface = {};
-  std::vector<robot::CableCommand> cables = {};  ///< one for each cable
+  std::vector<robot::ActuatorCommand> cables = {};  ///< one for each cable
   std::vector<robot::DeadLoad> loads = {};
   /// [loads] where the size is an unknown; empty: loads act on the same part of the body at every
   /// size.

@@ -21,10 +21,10 @@ class CableLengthsCondition final : public Condition {
         shares_(std::move(shares)) {}
 
   double Value(const robot::RobotModel& model, const fem::StaticState& state) const override {
-    PALPATE_CHECK(static_cast<int>(shares_.size()) == model.CableCount(), shares_.size());
+    PALPATE_CHECK(static_cast<int>(shares_.size()) == model.ActuatorCount(), shares_.size());
     double sum_m = 0.0;
-    for (int c = 0; c < model.CableCount(); ++c) {
-      sum_m += shares_[At(c)] * model.cable(c).Displacement_m(state.x_m);
+    for (int c = 0; c < model.ActuatorCount(); ++c) {
+      sum_m += shares_[At(c)] * model.actuator(c).Displacement_m(state.x_m);
     }
     return kPerMillimetre * sum_m;
   }

@@ -65,7 +65,7 @@ void TakePose(const JointCalibration& fit, robot::CalibrationFile* file) {
 
 void TakeActuators(const JointCalibration& fit, const robot::RobotModel& model,
                    robot::CalibrationFile* file) {
-  for (const std::string& cable : model.CableNames()) {
+  for (const std::string& cable : model.ActuatorNames()) {
     const FittedValue* offset = FindValue(fit, "cable_offset:" + cable);
     const FittedValue* gain = FindValue(fit, "cable_gain:" + cable);
     const bool has_offset = offset != nullptr && offset->determined;

@@ -24,7 +24,7 @@ namespace palpate::calibration {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 struct JointRequestTuning {
   /// Residual over the markers' spread of another robot: less refuses poor models of this one.
@@ -101,28 +101,28 @@ Status FindModelStart(robot::RobotModel& model, JointSetup* setup) {
   return Status::Ok();
 }
 
-/// An unknown tension for each cable without an input in a frame.
+/// An unknown tension, or thrust of a chamber, for each actuator without an input in a frame.
 void AddInputs(const robot::RobotModel& model, JointSetup* setup) {
   for (std::size_t f = 0; f < setup->frames.size(); ++f) {
-    for (int c = 0; c < model.CableCount(); ++c) {
+    for (int c = 0; c < model.ActuatorCount(); ++c) {
       const auto cable = static_cast<size_t>(c);
-      robot::CableCommand& command = setup->frames[f].cables[cable];
+      robot::ActuatorCommand& command = setup->frames[f].cables[cable];
       if (command.kind != Kind::kNone) continue;
       command = {Kind::kTension, kRequestTuning.first_tension_N};
       setup->unknowns.push_back(CableInput(static_cast<int>(f), setup->frames[f].name, c,
-                                           model.body().cables[cable].name, Kind::kTension,
+                                           model.traits(c).name, Kind::kTension,
                                            {.mean = kRequestTuning.first_tension_N,
                                             .lower = 0.0,
-                                            .upper = model.body().cables[cable].max_tension_N,
+                                            .upper = model.traits(c).most_force_N,
                                             .plausible = 1.0}));
     }
   }
 }
 
 void AddActuators(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
-  for (int c = 0; c < model.CableCount(); ++c) {
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     const auto cable = static_cast<size_t>(c);
-    const std::string& name = model.body().cables[cable].name;
+    const std::string& name = model.traits(c).name;
     std::vector<double> measured;
     bool driven = false;
     for (const CalibrationFrame& frame : setup->frames) {

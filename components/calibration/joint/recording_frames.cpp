@@ -54,8 +54,8 @@ CalibrationFrame ReferenceFrame(const experiment::Experiment& experiment,
       .name = recording.name + " (reference)",
       .markers = Sightings(experiment, recording, model, reference.window_s, 0.0)};
   if (reference.shape == experiment::ReferenceShape::kUndeformed) {
-    const auto cables = static_cast<std::size_t>(model.CableCount());
-    frame.cables.assign(cables, {robot::CableCommand::Kind::kTension, 0.0});
+    const auto cables = static_cast<std::size_t>(model.ActuatorCount());
+    frame.cables.assign(cables, {robot::ActuatorCommand::Kind::kTension, 0.0});
     return frame;
   }
   const double middle_s = 0.5 * (reference.window_s.begin_s + reference.window_s.end_s);
@@ -73,7 +73,7 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
                                                 int most_frames) {
   experiment::RequireMarkers(recording);
   experiment::CheckMarkers(recording, model.MarkerNames());
-  experiment::CheckCables(recording, model.CableNames());
+  experiment::CheckActuators(recording, model.CableNames(), model.ChamberNames());
   const std::vector<TimeWindow> windows = WindowsOf(recording, most_frames);
   std::vector<CalibrationFrame> frames;
   for (const TimeWindow& window : windows) {

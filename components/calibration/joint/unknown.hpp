@@ -36,7 +36,7 @@ inline double ScaleOf(const GaussianPrior& prior) { return std::min(prior.plausi
 
 /// Inputs of a frame after all unknowns were applied.
 struct FrameInputs {
-  std::vector<robot::CableCommand> cables;
+  std::vector<robot::ActuatorCommand> cables;
   std::vector<robot::DeadLoad> loads = {};
   /// [loads] derivative of the nodal weights of each load to `scale`; empty: 0.
   std::vector<fem::InterpolationWeights> hold_per_scale = {};

@@ -12,7 +12,7 @@
 
 namespace palpate::calibration {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 Status Unknown::ApplyToModel(double, robot::RobotModel*) const { return Status::Ok(); }
 
@@ -25,7 +25,7 @@ constexpr const char* kAnotherSetting =
 constexpr const char* kKnownForce =
     "a recording with a known load, or with cables whose tension is measured";
 
-robot::CableCommand& CommandOf(int cable, FrameInputs* inputs) {
+robot::ActuatorCommand& CommandOf(int cable, FrameInputs* inputs) {
   return inputs->cables.at(At(cable));
 }
 
@@ -74,7 +74,7 @@ class OffsetOfCommand final : public Unknown {
       : Unknown(std::move(name), "m", prior, kAnotherSetting), cable_(cable) {}
 
   void ApplyToFrame(double value, int, FrameInputs* inputs) const override {
-    robot::CableCommand& command = CommandOf(cable_, inputs);
+    robot::ActuatorCommand& command = CommandOf(cable_, inputs);
     if (command.kind == Kind::kDisplacement) command.value += value;
   }
 
@@ -96,7 +96,7 @@ class GainOfCommand final : public Unknown {
         measured_(std::move(measured)) {}
 
   void ApplyToFrame(double value, int frame, FrameInputs* inputs) const override {
-    robot::CableCommand& command = CommandOf(cable_, inputs);
+    robot::ActuatorCommand& command = CommandOf(cable_, inputs);
     if (command.kind == Kind::kDisplacement) command.value += value * MeasuredIn(frame);
   }
 
@@ -213,7 +213,7 @@ class ScaleUnknown final : public Unknown {
                                       const FrameInputs& inputs) const override {
     std::vector<Influence> all;
     for (std::size_t c = 0; c < inputs.cables.size(); ++c) {
-      const robot::CableCommand& command = inputs.cables[c];
+      const robot::ActuatorCommand& command = inputs.cables[c];
       if (command.value == 0.0) continue;
       const double share = command.kind == Kind::kTension ? -2.0 / s : -1.0 / s;
       for (Influence& influence : OfCommand(static_cast<int>(c), inputs, share * command.value)) {
@@ -240,7 +240,7 @@ FrameInputs ToModel(const FrameInputs& robot) {
   FrameInputs model = robot;
   const double s = robot.scale;
   if (s == 1.0) return model;
-  for (robot::CableCommand& command : model.cables) {
+  for (robot::ActuatorCommand& command : model.cables) {
     command.value /= command.kind == Kind::kTension ? s * s : s;
   }
   for (robot::DeadLoad& load : model.loads) load.force_N /= s * s;

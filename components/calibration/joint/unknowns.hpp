@@ -16,7 +16,7 @@ namespace palpate::calibration {
 
 /// Displacement (m) or tension (N) of a cable in one frame, in place of the frame's command.
 UnknownPtr CableInput(int frame, const std::string& frame_name, int cable,
-                      const std::string& cable_name, robot::CableCommand::Kind kind,
+                      const std::string& cable_name, robot::ActuatorCommand::Kind kind,
                       const GaussianPrior& prior);
 
 /// o, m: a commanded displacement u of this cable is (1 + g) u + o in each frame.

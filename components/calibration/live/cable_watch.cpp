@@ -13,7 +13,7 @@ namespace palpate::calibration {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 /// Largest delay of clouds and markers behind the cable readings of their time.
 constexpr double kLatest_s = 10.0;
@@ -48,7 +48,7 @@ std::int64_t CableWatch::Begin(std::int64_t stamp_ns) const {
   return stamp_ns - Nanoseconds(settings_.still_s);
 }
 
-robot::CableCommand CableWatch::CommandOf(const CableReading& reading, std::size_t cable) const {
+robot::ActuatorCommand CableWatch::CommandOf(const CableReading& reading, std::size_t cable) const {
   const CableReading::Inputs& inputs = reading.cables[cable];
   return robot::ChooseCommand(inputs.displacement_m, inputs.tension_N, preferred_);
 }
@@ -80,7 +80,7 @@ bool CableWatch::IsStill(std::size_t cable, std::size_t first, std::size_t last)
   double least = CommandOf(readings_[first], cable).value;
   double most = least;
   for (std::size_t k = first; k <= last; ++k) {
-    const robot::CableCommand command = CommandOf(readings_[k], cable);
+    const robot::ActuatorCommand command = CommandOf(readings_[k], cable);
     if (command.kind != kind) return false;
     least = std::min(least, command.value);
     most = std::max(most, command.value);
@@ -88,8 +88,8 @@ bool CableWatch::IsStill(std::size_t cable, std::size_t first, std::size_t last)
   return most - least <= (kind == Kind::kTension ? settings_.still_N : settings_.still_m);
 }
 
-std::vector<robot::CableCommand> CableWatch::MeanAt(std::int64_t stamp_ns) const {
-  std::vector<robot::CableCommand> means(cable_count_);
+std::vector<robot::ActuatorCommand> CableWatch::MeanAt(std::int64_t stamp_ns) const {
+  std::vector<robot::ActuatorCommand> means(cable_count_);
   if (cable_count_ == 0) return means;
   const auto first = FirstFrom(readings_, Begin(stamp_ns));
   for (std::size_t cable = 0; cable < cable_count_; ++cable) {
@@ -97,7 +97,7 @@ std::vector<robot::CableCommand> CableWatch::MeanAt(std::int64_t stamp_ns) const
     int count = 0;
     for (auto reading = first; reading != readings_.end(); ++reading) {
       if (count > 0 && reading->stamp_ns > stamp_ns) break;
-      const robot::CableCommand command = CommandOf(*reading, cable);
+      const robot::ActuatorCommand command = CommandOf(*reading, cable);
       means[cable].kind = command.kind;
       sum += command.value;
       ++count;

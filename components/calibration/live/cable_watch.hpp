@@ -38,12 +38,12 @@ class CableWatch {
   State At(std::int64_t stamp_ns) const;
   /// Mean inputs over still_s before a time of rest, one per cable; kNone where neither
   /// displacement nor tension is known.
-  std::vector<robot::CableCommand> MeanAt(std::int64_t stamp_ns) const;
+  std::vector<robot::ActuatorCommand> MeanAt(std::int64_t stamp_ns) const;
   bool IsEmpty() const { return readings_.empty(); }
 
  private:
   std::int64_t Begin(std::int64_t stamp_ns) const;
-  robot::CableCommand CommandOf(const CableReading& reading, std::size_t cable) const;
+  robot::ActuatorCommand CommandOf(const CableReading& reading, std::size_t cable) const;
   bool IsStill(std::size_t cable, std::size_t first, std::size_t last) const;
 
   static constexpr std::size_t kCapacity = 20000;

@@ -11,7 +11,7 @@ namespace palpate::calibration {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 template <typename Frame>
 void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
@@ -20,7 +20,7 @@ void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::stri
   for (const robot::CalibratedDrive& actuator : before.drives) {
     const auto name = std::find(cable_names.begin(), cable_names.end(), actuator.cable);
     if (name == cable_names.end()) continue;
-    robot::CableCommand& cable = frame->cables.at(At(name - cable_names.begin()));
+    robot::ActuatorCommand& cable = frame->cables.at(At(name - cable_names.begin()));
     if (cable.kind == Kind::kDisplacement) cable.value = actuator.drive.TakenIn_m(cable.value);
   }
 }

@@ -15,7 +15,7 @@ namespace palpate::calibration {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 using State = CableWatch::State;
 
 std::int64_t StampOf(const std::variant<SeenCloud, SeenMarkers>& seen) {
@@ -25,7 +25,7 @@ std::int64_t StampOf(const std::variant<SeenCloud, SeenMarkers>& seen) {
 }  // namespace
 
 FrameCollector::FrameCollector(const robot::RobotModel& model, const CollectorSettings& settings)
-    : cable_names_(model.CableNames()),
+    : cable_names_(model.ActuatorNames()),
       gravity_m_s2_(model.gravity_m_s2()),
       settings_(settings),
       watch_(cable_names_.size(), settings.cable_input, settings.rest) {}
@@ -94,7 +94,7 @@ bool FrameCollector::IsNew(const Setting& setting) const {
       return std::abs(NsToSeconds(setting.stamp_ns - taken.stamp_ns)) >= settings_.rest.still_s;
     }
     for (std::size_t c = 0; c < cable_names_.size(); ++c) {
-      const robot::CableCommand& now = setting.cables[c];
+      const robot::ActuatorCommand& now = setting.cables[c];
       const double change = std::abs(now.value - taken.cables[c].value);
       const double enough =
           now.kind == Kind::kTension ? settings_.new_setting_N : settings_.new_setting_m;

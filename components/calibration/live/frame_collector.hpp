@@ -64,7 +64,7 @@ class FrameCollector {
   using Seen = std::variant<SeenCloud, SeenMarkers>;
   struct Setting {
     std::int64_t stamp_ns = 0;
-    std::vector<robot::CableCommand> cables;
+    std::vector<robot::ActuatorCommand> cables;
   };
 
   void Add(Seen seen);

@@ -24,8 +24,8 @@ void AppendBytes(const Eigen::DenseBase<Derived>& numbers, std::string* bytes) {
                 static_cast<std::size_t>(plain.size()) * sizeof(*plain.data()));
 }
 
-void AppendCables(const std::vector<robot::CableCommand>& cables, std::string* bytes) {
-  for (const robot::CableCommand& cable : cables) {
+void AppendCables(const std::vector<robot::ActuatorCommand>& cables, std::string* bytes) {
+  for (const robot::ActuatorCommand& cable : cables) {
     bytes->push_back(static_cast<char>(cable.kind));
     AppendBytes(Eigen::Matrix<double, 1, 1>(cable.value), bytes);
   }
@@ -95,9 +95,9 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
   if (job.before) {
     result.status = robot::CheckCalibration(*job.before, model);
     if (!result.status.ok()) return result;
-    ReadAsBefore(*job.before, model.CableNames(), &read.clouds);
-    ReadAsBefore(*job.before, model.CableNames(), &read.markers);
-    ReadAsBefore(*job.before, model.CableNames(), &read.points);
+    ReadAsBefore(*job.before, model.ActuatorNames(), &read.clouds);
+    ReadAsBefore(*job.before, model.ActuatorNames(), &read.markers);
+    ReadAsBefore(*job.before, model.ActuatorNames(), &read.points);
     robot::CalibrationFile body = *job.before;
     body.drives.clear();  // already applied to the frames
     robot::ApplyCalibration(body, &model);

@@ -71,7 +71,7 @@ CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot
       health_{participant_, "calibration", Clock::now()},
       worker_{std::move(model), std::move(fit), [this] { loop_.Wake(); }},
       marker_names_{worker_.model().MarkerNames()},
-      cable_names_{worker_.model().CableNames()},
+      cable_names_{worker_.model().ActuatorNames()},
       part_names_{PartNames(worker_.model().body())},
       collector_{worker_.model(), CollectorOf(config)},
       requests_{participant_.CreateReader(dds::kCalibrationRequestTopic)},
@@ -171,6 +171,7 @@ void CalibrationNode::TakeJointStates() {
     const Status status = dds::FromJointState(message, cable_names_, &reading);
     if (status.ok()) {
       cable_obstacle_.clear();
+      robot::ToPistons(worker_.model().traits(), &reading);
       collector_.Add(std::move(reading));
     } else {
       Obstruct(status, &cable_obstacle_);

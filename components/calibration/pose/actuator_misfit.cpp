@@ -14,21 +14,21 @@ namespace palpate::calibration {
 namespace {
 
 using Eigen::Index;
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// [a] NaN: no equilibrium.
 Eigen::VectorXd Displacements_m(robot::RobotModel& model, const CalibrationFrame& frame,
-                                const std::vector<robot::CableCommand>& cables) {
+                                const std::vector<robot::ActuatorCommand>& cables) {
   const ModelSnapshot kept(model);
-  Eigen::VectorXd displacement_m = Eigen::VectorXd::Constant(model.CableCount(), kUnknown);
+  Eigen::VectorXd displacement_m = Eigen::VectorXd::Constant(model.ActuatorCount(), kUnknown);
   model.SetGravity(frame.gravity_m_s2);
   fem::StaticState state = model.RestState();
   const bool solved = model.Solve(cables, frame.loads, &state).status.ok();
   kept.RestoreGravity();
-  for (int c = 0; solved && c < model.CableCount(); ++c) {
-    displacement_m[c] = model.StateOfCable(c, state).displacement_m;
+  for (int c = 0; solved && c < model.ActuatorCount(); ++c) {
+    displacement_m[c] = model.StateOfActuator(c, state).displacement_m;
   }
   return displacement_m;
 }
@@ -52,11 +52,11 @@ double MisfitOf(const Eigen::RowVectorXd& off_m, bool has_offset, const Actuator
 
 Eigen::MatrixXd CommandedDisplacements_m(robot::RobotModel& model,
                                          const std::vector<CalibrationFrame>& frames) {
-  Eigen::MatrixXd commanded_m(model.CableCount(), static_cast<Index>(frames.size()));
+  Eigen::MatrixXd commanded_m(model.ActuatorCount(), static_cast<Index>(frames.size()));
   for (std::size_t f = 0; f < frames.size(); ++f) {
     auto column = commanded_m.col(static_cast<Index>(f));
     column = Displacements_m(model, frames[f], frames[f].cables);
-    for (int c = 0; c < model.CableCount(); ++c) {
+    for (int c = 0; c < model.ActuatorCount(); ++c) {
       if (frames[f].cables[At(c)].kind == Kind::kNone) column[c] = kUnknown;
     }
   }
@@ -68,7 +68,7 @@ double ActuatorMisfit(robot::RobotModel& model, const std::vector<CalibrationFra
                       const Eigen::MatrixXd& commanded_m, const ActuatorErrors& errors) {
   Eigen::MatrixXd off_m(commanded_m.rows(), commanded_m.cols());
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    std::vector<robot::CableCommand> cables;
+    std::vector<robot::ActuatorCommand> cables;
     for (const double one_N : tension_N[f]) cables.push_back({Kind::kTension, one_N});
     const auto column = static_cast<Index>(f);
     off_m.col(column) = Displacements_m(model, frames[f], cables) - commanded_m.col(column);

@@ -85,11 +85,10 @@ std::string Short(double value) {
 std::vector<CableLimits> LimitsOf(const robot::RobotModel& model,
                                   const std::vector<CableLimits>& asked) {
   std::vector<CableLimits> limits = asked;
-  if (limits.empty()) limits.resize(static_cast<size_t>(model.CableCount()));
-  PALPATE_CHECK(static_cast<int>(limits.size()) == model.CableCount(), limits.size());
+  if (limits.empty()) limits.resize(static_cast<size_t>(model.ActuatorCount()));
+  PALPATE_CHECK(static_cast<int>(limits.size()) == model.ActuatorCount(), limits.size());
   for (size_t c = 0; c < limits.size(); ++c) {
-    limits[c].most_tension_N =
-        std::min(limits[c].most_tension_N, model.body().cables[c].max_tension_N);
+    limits[c].most_tension_N = std::min(limits[c].most_tension_N, model.traits()[c].most_force_N);
   }
   return limits;
 }
@@ -107,7 +106,7 @@ Alternation::Alternation(robot::RobotModel& model, const std::vector<MarkerSight
     covariance_m2_.push_back(sightings[k].covariance_m2);
   }
   problem_.limits = LimitsOf(model, settings.limits);
-  result_.degrees_of_freedom = static_cast<int>(3 * sightings.size()) - 6 - model.CableCount();
+  result_.degrees_of_freedom = static_cast<int>(3 * sightings.size()) - 6 - model.ActuatorCount();
 }
 
 PoseAndInputs Alternation::Run() {
@@ -119,14 +118,14 @@ bool Alternation::Fail(PoseFinding finding, StatusCode code, const std::string& 
   result_.finding = finding;
   result_.status = Status(code, message);
   result_.T_robot_camera = geometry::RigidTransform();
-  result_.lambda_a_N = result_.displacement_m = Eigen::VectorXd::Zero(model_.CableCount());
+  result_.lambda_a_N = result_.displacement_m = Eigen::VectorXd::Zero(model_.ActuatorCount());
   return false;
 }
 
 /// Equilibrium with the smallest tensions of Omega: zero, as in the paper, unless Omega excludes
 /// it.
 bool Alternation::Start() {
-  Eigen::VectorXd least_N(model_.CableCount());
+  Eigen::VectorXd least_N(model_.ActuatorCount());
   for (Index c = 0; c < least_N.size(); ++c) {
     least_N[c] = problem_.limits[At(c)].least_tension_N;
   }
@@ -152,7 +151,7 @@ std::string Alternation::UndeterminedCables() const {
   std::string names;
   for (Index c = 0; c < result_.standard_error_N.size(); ++c) {
     if (result_.standard_error_N[c] <= settings_.undetermined_sigma_N) continue;
-    names += (names.empty() ? "cable " : ", cable ") + model_.body().cables[At(c)].name;
+    names += (names.empty() ? "" : ", ") + model_.traits()[At(c)].Title();
   }
   return names;
 }
@@ -287,13 +286,13 @@ bool Alternation::Conclude() {
   UpdateResidual();
   result_.state = follower_.state();
   result_.lambda_a_N = follower_.lambda_a_N();
-  result_.displacement_m.resize(model_.CableCount());
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    result_.displacement_m[c] = model_.cable(c).Displacement_m(result_.state.x_m);
+  result_.displacement_m.resize(model_.ActuatorCount());
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
+    result_.displacement_m[c] = model_.actuator(c).Displacement_m(result_.state.x_m);
   }
   result_.covariance =
       JointCovariance(sightings_, whitener_, result_.T_robot_camera, follower_.compliance().W_ea());
-  result_.standard_error_N = result_.covariance.diagonal().tail(model_.CableCount()).cwiseSqrt();
+  result_.standard_error_N = result_.covariance.diagonal().tail(model_.ActuatorCount()).cwiseSqrt();
   return true;
 }
 
@@ -336,7 +335,7 @@ PoseAndInputs PoseRefusal(const robot::RobotModel& model, const Status& status) 
   refused.finding = status.code() == StatusCode::kUnobservable ? PoseFinding::kDegenerateMarkers
                                                                : PoseFinding::kInvalidInput;
   refused.status = status;
-  refused.lambda_a_N = refused.displacement_m = Eigen::VectorXd::Zero(model.CableCount());
+  refused.lambda_a_N = refused.displacement_m = Eigen::VectorXd::Zero(model.ActuatorCount());
   return refused;
 }
 

@@ -28,10 +28,10 @@ std::vector<robot::ObservationRow> RowsOf(const robot::RobotModel& model,
   return robot::RowsOfPoints(points);
 }
 
-std::vector<robot::CableCommand> Tensions(const Eigen::VectorXd& lambda_a_N) {
-  std::vector<robot::CableCommand> commands;
+std::vector<robot::ActuatorCommand> Tensions(const Eigen::VectorXd& lambda_a_N) {
+  std::vector<robot::ActuatorCommand> commands;
   for (const double tension_N : lambda_a_N) {
-    commands.push_back({robot::CableCommand::Kind::kTension, tension_N});
+    commands.push_back({robot::ActuatorCommand::Kind::kTension, tension_N});
   }
   return commands;
 }
@@ -67,14 +67,14 @@ Status MarkerFollower::TryLinearise() {
   fem::Linearisation& linearisation = model_.linearisation();
   const Status status = linearisation.Update(state_.x_m, state_.multipliers_N, weight_N_);
   if (!status.ok()) return status;
-  compliance_.Compute(state_.x_m, model_.cable_rest_length_m(), state_.multipliers_N, {});
+  compliance_.Compute(state_.x_m, model_.actuator_rest_m(), state_.multipliers_N, {});
   tangent_lambda_a_N_ = state_.multipliers_N;
   return status;
 }
 
 void MarkerFollower::KeepTangent() {
   // The linearisation has the residual after the last step.
-  compliance_.ComputeChord(state_.x_m, model_.cable_rest_length_m(), state_.multipliers_N, {});
+  compliance_.ComputeChord(state_.x_m, model_.actuator_rest_m(), state_.multipliers_N, {});
 }
 
 Status MarkerFollower::MoveTo(const Eigen::VectorXd& lambda_a_N) {

@@ -106,7 +106,7 @@ Eigen::MatrixXd MarkerShapes::Derivative(const Eigen::VectorXd& tension_N) const
 SolvedShapes SolveMarkerShapes(robot::RobotModel& model, const Eigen::VectorXd& most_tension_N) {
   constexpr std::array<int, 16> kPrimes = {2,  3,  5,  7,  11, 13, 17, 19,
                                            23, 29, 31, 37, 41, 43, 47, 53};
-  const Index cables = model.CableCount();
+  const Index cables = model.ActuatorCount();
   PALPATE_CHECK(most_tension_N.size() == cables && (most_tension_N.array() > 0.0).all(),
                 most_tension_N.transpose());
   PALPATE_CHECK(cables <= static_cast<Index>(kPrimes.size()), cables);
@@ -117,10 +117,10 @@ SolvedShapes SolveMarkerShapes(robot::RobotModel& model, const Eigen::VectorXd& 
   SolvedShapes solved;
   fem::StaticState state = model.RestState();
   for (Index s = 0; s < samples; ++s) {
-    std::vector<robot::CableCommand> commands;
+    std::vector<robot::ActuatorCommand> commands;
     for (Index c = 0; c < cables; ++c) {
       tensions_N(c, s) = most_tension_N[c] * RadicalInverse(static_cast<int>(s), kPrimes[At(c)]);
-      commands.push_back({robot::CableCommand::Kind::kTension, tensions_N(c, s)});
+      commands.push_back({robot::ActuatorCommand::Kind::kTension, tensions_N(c, s)});
     }
     solved.status = model.Solve(commands, {}, &state).status;
     if (!solved.status.ok()) return solved;

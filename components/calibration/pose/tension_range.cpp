@@ -13,7 +13,7 @@ namespace palpate::calibration {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 /// A wider range holds more offsets, and leaves the polynomial of MarkerShapes larger errors.
 struct TensionRangeTuning {
@@ -36,14 +36,14 @@ Eigen::Matrix3Xd MarkersAt(const robot::RobotModel& model, const fem::StaticStat
 
 /// Tension of one cable alone up to which no marker moves far.
 double ReachOf(robot::RobotModel& model, int cable) {
-  const double most_N = model.body().cables[At(cable)].max_tension_N;
+  const double most_N = model.traits(cable).most_force_N;
   fem::StaticState state = model.RestState();
   const Eigen::Matrix3Xd rest_m = MarkersAt(model, state);
   const Eigen::Vector3d middle_m = rest_m.rowwise().mean();
   const double spread_m = std::sqrt((rest_m.colwise() - middle_m).colwise().squaredNorm().mean());
   double reach_N = std::ldexp(most_N, -kRangeTuning.doublings);
   for (double tension_N = reach_N; tension_N <= most_N; tension_N *= 2.0) {
-    std::vector<robot::CableCommand> commands(static_cast<std::size_t>(model.CableCount()));
+    std::vector<robot::ActuatorCommand> commands(static_cast<std::size_t>(model.ActuatorCount()));
     commands[At(cable)] = {Kind::kTension, tension_N};
     if (!model.Solve(commands, {}, &state).status.ok()) break;
     const Eigen::Matrix3Xd moved_m = MarkersAt(model, state) - rest_m;
@@ -56,8 +56,8 @@ double ReachOf(robot::RobotModel& model, int cable) {
 /// Raises `most_N` to the tensions of one frame.
 Status Raise(robot::RobotModel& model, const CalibrationFrame& frame,
              double actuator_offset_sigma_m, Eigen::VectorXd* most_N) {
-  std::vector<robot::CableCommand> commands = frame.cables;
-  for (robot::CableCommand& command : commands) {
+  std::vector<robot::ActuatorCommand> commands = frame.cables;
+  for (robot::ActuatorCommand& command : commands) {
     if (command.kind == Kind::kDisplacement)
       command.value += kRangeTuning.offset_sigmas * actuator_offset_sigma_m;
   }
@@ -67,8 +67,8 @@ Status Raise(robot::RobotModel& model, const CalibrationFrame& frame,
   if (!result.status.ok()) {
     return {result.status.code(), frame.name + ": " + result.status.message()};
   }
-  for (int c = 0; c < model.CableCount(); ++c) {
-    const double tension_N = model.StateOfCable(c, state).tension_N;
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
+    const double tension_N = model.StateOfActuator(c, state).tension_N;
     (*most_N)[c] = std::max((*most_N)[c], kRangeTuning.margin * tension_N);
   }
   return Status::Ok();
@@ -79,14 +79,14 @@ Status Raise(robot::RobotModel& model, const CalibrationFrame& frame,
 Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
                         double actuator_offset_sigma_m, Eigen::VectorXd* most_N) {
   const ModelSnapshot kept(model);
-  *most_N = Eigen::VectorXd::Zero(model.CableCount());
+  *most_N = Eigen::VectorXd::Zero(model.ActuatorCount());
   Status status = Status::Ok();
   for (const CalibrationFrame& frame : frames) {
     if (status.ok()) status = Raise(model, frame, actuator_offset_sigma_m, most_N);
   }
   kept.RestoreGravity();
   if (!status.ok()) return status;
-  for (int c = 0; c < model.CableCount(); ++c) {
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     const auto is_unknown = [&](const CalibrationFrame& frame) {
       return frame.cables[At(c)].kind == Kind::kNone;
     };

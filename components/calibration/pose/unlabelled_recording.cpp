@@ -98,7 +98,7 @@ std::vector<UnlabelledFrame> UnlabelledFramesOfRecording(const experiment::Exper
                                                          robot::CableInput preferred,
                                                          double marker_bias_m, int most_frames) {
   experiment::RequireMarkers(recording);
-  experiment::CheckCables(recording, model.CableNames());
+  experiment::CheckActuators(recording, model.CableNames(), model.ChamberNames());
   const Eigen::Vector3d sigma_m = experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero());
   const std::vector<TimeWindow> windows = WindowsOf(recording, most_frames);
   std::vector<UnlabelledFrame> frames;

@@ -322,7 +322,7 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
   std::vector<Sampler> samplers;
   for (std::size_t i = 0; i < experiment.recordings.size(); ++i) {
     const Recording& recording = experiment.recordings[i];
-    CheckCables(recording, cables);
+    CheckActuators(recording, cables, {});
     observed.recordings.push_back(
         DescribeRecording(experiment, recording, body, settings.with_depth_frames));
     if (recording.markers) CheckMarkers(recording, observed.markers);

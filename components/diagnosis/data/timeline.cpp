@@ -13,16 +13,16 @@ namespace palpate::diagnosis {
 
 namespace {
 
-using experiment::CableQuantity;
+using experiment::ActuatorQuantity;
 
 constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
 
-const experiment::CableColumn* ColumnOf(const experiment::Recording& recording,
-                                        const std::string& cable) {
+const experiment::ActuatorColumn* ColumnOf(const experiment::Recording& recording,
+                                           const std::string& cable) {
   if (!recording.actuation) return nullptr;
-  const auto* displacement = recording.actuation->Find(cable, CableQuantity::kDisplacement);
+  const auto* displacement = recording.actuation->Find(cable, ActuatorQuantity::kDisplacement);
   return displacement != nullptr ? displacement
-                                 : recording.actuation->Find(cable, CableQuantity::kTension);
+                                 : recording.actuation->Find(cable, ActuatorQuantity::kTension);
 }
 
 Eigen::VectorXd CommandOf(const experiment::Recording& recording,
@@ -95,7 +95,7 @@ Timeline ReadTimeline(const experiment::Experiment& experiment,
     }
     for (std::size_t c = 0; c < cables.size(); ++c) {
       const auto* column = ColumnOf(recording, cables[c]);
-      if (column != nullptr && column->quantity == CableQuantity::kTension) {
+      if (column != nullptr && column->quantity == ActuatorQuantity::kTension) {
         timeline.by_tension[c] = true;
       }
     }

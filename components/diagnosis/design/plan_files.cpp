@@ -21,7 +21,7 @@ namespace palpate::diagnosis {
 namespace {
 
 namespace fs = std::filesystem;
-using experiment::CableQuantity;
+using experiment::ActuatorQuantity;
 using experiment::Recording;
 
 constexpr const char* kScenarioFile = "recording.scenario.yaml";
@@ -31,8 +31,8 @@ constexpr const char* kOthersFolder = "plan_others";
 bool DrivesTensions(const Recording& recording) {
   if (!recording.actuation) return false;
   const auto& columns = recording.actuation->columns;
-  return std::any_of(columns.begin(), columns.end(), [](const experiment::CableColumn& column) {
-    return column.quantity == CableQuantity::kTension;
+  return std::any_of(columns.begin(), columns.end(), [](const experiment::ActuatorColumn& column) {
+    return column.quantity == ActuatorQuantity::kTension;
   });
 }
 
@@ -40,7 +40,7 @@ std::string CommandRows(const experiment::Actuation& actuation) {
   std::string text = "    commands:\n";
   for (std::size_t row = 0; row < actuation.t_s.size(); ++row) {
     text += "      - {t_s: " + FormatNumber(actuation.t_s[row]);
-    for (const experiment::CableColumn& column : actuation.columns) {
+    for (const experiment::ActuatorColumn& column : actuation.columns) {
       text += ", " + column.Header() + ": " + FormatNumber(column.samples[row].value());
     }
     text += "}\n";

@@ -87,8 +87,8 @@ class Script {
       const auto i = static_cast<std::size_t>(c);
       actuation_.columns.push_back({.cable = drives.cables[i],
                                     .quantity = drives.by_tension[i]
-                                                    ? experiment::CableQuantity::kTension
-                                                    : experiment::CableQuantity::kDisplacement,
+                                                    ? experiment::ActuatorQuantity::kTension
+                                                    : experiment::ActuatorQuantity::kDisplacement,
                                     .samples = {},
                                     .where = {}});
     }

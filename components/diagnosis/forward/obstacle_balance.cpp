@@ -38,7 +38,7 @@ ObstacleBalance::ObstacleBalance(const Obstacle& obstacle, robot::RobotModel* mo
   depth_m_ = force_N_ = Eigen::VectorXd::Zero(nodes);
 }
 
-Status ObstacleBalance::Solve(const std::vector<robot::CableCommand>& cables,
+Status ObstacleBalance::Solve(const std::vector<robot::ActuatorCommand>& cables,
                               const fem::LoadState& loads, fem::StaticState* state,
                               Eigen::VectorXd* force_N) {
   const auto nodes = std::ssize(obstacle_.surface->nodes);
@@ -62,7 +62,7 @@ Status ObstacleBalance::Solve(const std::vector<robot::CableCommand>& cables,
 
 /// A step of the body towards balance and new forces of the obstacle, in turn: most of what each
 /// does to the other is foreseen, so that both settle as fast as one.
-Status ObstacleBalance::StepTogether(const std::vector<robot::CableCommand>& cables,
+Status ObstacleBalance::StepTogether(const std::vector<robot::ActuatorCommand>& cables,
                                      const Eigen::VectorXd& others_N, fem::LoadState* loads,
                                      fem::StaticState* state) {
   constexpr int kMostSteps = 60;
@@ -114,7 +114,7 @@ Status ObstacleBalance::Step(const fem::LoadState& loads, const fem::StaticState
 
 /// The body in balance under what the obstacle presses with, and what it does then, in turn: slow,
 /// and for steps that StepTogether does not find its way with.
-Status ObstacleBalance::BalanceInTurn(const std::vector<robot::CableCommand>& cables,
+Status ObstacleBalance::BalanceInTurn(const std::vector<robot::ActuatorCommand>& cables,
                                       const Eigen::VectorXd& others_N, fem::LoadState* loads,
                                       fem::StaticState* state) {
   double before_m = std::numeric_limits<double>::infinity();
@@ -160,7 +160,7 @@ bool ObstacleBalance::CoversWhatTouches() const {
 }
 
 /// How the nodes that touch, or may come to, yield to each other's forces.
-Status ObstacleBalance::UpdateCompliance(const std::vector<robot::CableCommand>& cables,
+Status ObstacleBalance::UpdateCompliance(const std::vector<robot::ActuatorCommand>& cables,
                                          const fem::StaticState& state) {
   active_.clear();
   std::vector<robot::ParameterPtr> pushes;

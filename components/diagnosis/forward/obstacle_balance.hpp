@@ -26,20 +26,20 @@ class ObstacleBalance {
 
   /// As StaticSolver::Solve, of cables as commanded. `force_N` [nodes of the obstacle's surface, or
   /// empty: none] is what the obstacle presses with: a guess before, and what it does after.
-  Status Solve(const std::vector<robot::CableCommand>& cables, const fem::LoadState& loads,
+  Status Solve(const std::vector<robot::ActuatorCommand>& cables, const fem::LoadState& loads,
                fem::StaticState* state, Eigen::VectorXd* force_N);
 
  private:
-  Status StepTogether(const std::vector<robot::CableCommand>& cables,
+  Status StepTogether(const std::vector<robot::ActuatorCommand>& cables,
                       const Eigen::VectorXd& others_N, fem::LoadState* loads,
                       fem::StaticState* state);
   Status Step(const fem::LoadState& loads, const fem::StaticState& state, bool renew);
-  Status BalanceInTurn(const std::vector<robot::CableCommand>& cables,
+  Status BalanceInTurn(const std::vector<robot::ActuatorCommand>& cables,
                        const Eigen::VectorXd& others_N, fem::LoadState* loads,
                        fem::StaticState* state);
   double UpdateDepths(const fem::StaticState& state);
   bool CoversWhatTouches() const;
-  Status UpdateCompliance(const std::vector<robot::CableCommand>& cables,
+  Status UpdateCompliance(const std::vector<robot::ActuatorCommand>& cables,
                           const fem::StaticState& state);
   void PressAgain();
 

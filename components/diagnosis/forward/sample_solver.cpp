@@ -17,7 +17,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 /// Of loops between equilibrium and what yields under it.
 constexpr int kMostRounds = 12;
@@ -81,15 +81,15 @@ SampleSolver::SampleSolver(const ModelHypothesis& hypothesis, const ObservedExpe
   }
 }
 
-std::vector<robot::CableCommand> SampleSolver::Commands(const Eigen::VectorXd& taken_in) const {
-  std::vector<robot::CableCommand> commands(static_cast<std::size_t>(taken_in.size()));
+std::vector<robot::ActuatorCommand> SampleSolver::Commands(const Eigen::VectorXd& taken_in) const {
+  std::vector<robot::ActuatorCommand> commands(static_cast<std::size_t>(taken_in.size()));
   for (Eigen::Index c = 0; c < taken_in.size(); ++c) {
     const auto cable = static_cast<std::size_t>(c);
     if (std::isnan(taken_in[c])) continue;
     commands[cable] =
         observed_.timeline.by_tension[cable]
-            ? robot::CableCommand{Kind::kTension, std::max(0.0, taken_in[c])}
-            : robot::CableCommand{Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
+            ? robot::ActuatorCommand{Kind::kTension, std::max(0.0, taken_in[c])}
+            : robot::ActuatorCommand{Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
   }
   return commands;
 }
@@ -168,9 +168,9 @@ Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {
 
 /// Everything that loads the body at a sample, the base as it stands undeformed.
 fem::LoadState SampleSolver::LoadsOf(const Sample& sample,
-                                     const std::vector<robot::CableCommand>& commands) const {
+                                     const std::vector<robot::ActuatorCommand>& commands) const {
   fem::LoadState loads = model_.Loads(commands, LoadsAt(sample));
-  loads.commands[At(model_.CableCount())] = kept_.Command();
+  loads.commands[At(model_.ActuatorCount())] = kept_.Command();
   if (obstacle_) {
     loads.commands.back() = {.mode = fem::ConstraintCommand::Mode::kMultiplier,
                              .value = ObstacleContact::kThere_N};
@@ -343,7 +343,7 @@ HistoryInput SampleSolver::Rest() {
   nothing.t_s = observed_.timeline.begin_s.front();
   // Of the cables that are driven at all.
   const double off = std::numeric_limits<double>::quiet_NaN();
-  Eigen::VectorXd zero = Eigen::VectorXd::Constant(model_.CableCount(), off);
+  Eigen::VectorXd zero = Eigen::VectorXd::Constant(model_.ActuatorCount(), off);
   for (const Eigen::VectorXd& command : observed_.timeline.command) {
     zero = command.array().isNaN().select(zero, 0.0);
   }

@@ -64,13 +64,13 @@ class SampleSolver {
   robot::EyeletSlides SlidesAboutShape(const HeldShape& shape);
 
  private:
-  std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
+  std::vector<robot::ActuatorCommand> Commands(const Eigen::VectorXd& taken_in) const;
   std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
   Status Balance(const fem::LoadState& loads, HeldShape* shape);
   Status BalanceOnBase(fem::LoadState loads, HeldShape* shape);
   Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
   fem::LoadState LoadsOf(const Sample& sample,
-                         const std::vector<robot::CableCommand>& commands) const;
+                         const std::vector<robot::ActuatorCommand>& commands) const;
   void HoldBase(fem::LoadState* loads) const;
   void See(const Sample& sample, SimulatedSample* solved) const;
   Eigen::VectorXd MeshErrorAt(const Eigen::VectorXd& x_m) const;

@@ -20,7 +20,7 @@ struct HeldShape {
   double share = 1.0;    ///< of a sample's frames that it stands for
   std::size_t part = 0;  ///< of its parts, in which it is
   fem::StaticState state;
-  std::vector<robot::CableCommand> commands;
+  std::vector<robot::ActuatorCommand> commands;
   /// [nodes of ObstacleSurface] with which the hypothesis's obstacle presses on the body; empty:
   /// nowhere.
   Eigen::VectorXd obstacle_force_N;

@@ -14,7 +14,7 @@ class CommandChangeParameter final : public robot::Parameter {
   explicit CommandChangeParameter(Eigen::VectorXd change) : change_(std::move(change)) {}
 
   void Describe(const robot::EquilibriumPoint& at, robot::ParameterColumn* column) const override {
-    using CommandKind = robot::CableCommand::Kind;
+    using CommandKind = robot::ActuatorCommand::Kind;
     for (Eigen::Index c = 0; c < change_.size(); ++c) {
       const CommandKind kind = at.command(static_cast<int>(c)).kind;
       if (kind == CommandKind::kDisplacement) column->commanded_length_m[c] -= change_[c];

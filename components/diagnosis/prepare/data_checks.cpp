@@ -15,7 +15,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-using experiment::CableQuantity;
+using experiment::ActuatorQuantity;
 using experiment::MarkerFrame;
 using experiment::Recording;
 
@@ -55,7 +55,7 @@ Jumpiness OfMarkers(const Recording& recording) {
 Jumpiness OfCommands(const Recording& recording) {
   Jumpiness jumpiness;
   for (const auto& column : recording.actuation->columns) {
-    if (column.quantity != CableQuantity::kDisplacement) continue;
+    if (column.quantity != ActuatorQuantity::kDisplacement) continue;
     std::vector<Eigen::Vector3d> series;
     for (const MarkerFrame& frame : recording.markers->frames) {
       series.emplace_back(recording.actuation->ValueAt(column, frame.t_s), 0.0, 0.0);

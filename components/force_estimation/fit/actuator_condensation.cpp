@@ -12,7 +12,7 @@ namespace palpate::force_estimation {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 struct CondensationTuning {
   /// A slack cable becomes taut where its displacement falls short by more than this. Anything
@@ -26,30 +26,35 @@ constexpr CondensationTuning kCondensationTuning;
 
 }  // namespace
 
-ActuatorCondensation::ActuatorCondensation(int effector_rows, int cables)
-    : fixed_(Eigen::VectorXd::Zero(cables)),
-      changes_(static_cast<size_t>(cables), 0),
+ActuatorCondensation::ActuatorCondensation(int effector_rows,
+                                           const std::vector<robot::ActuatorTraits>& traits)
+    : fixed_(Eigen::VectorXd::Zero(std::ssize(traits))),
+      changes_(traits.size(), 0),
       e0_(effector_rows),
-      lambda_a_(cables),
-      delta_a_(cables) {
-  taut_.reserve(static_cast<size_t>(cables));
+      lambda_a_(fixed_),
+      delta_a_(fixed_) {
+  taut_.reserve(traits.size());
+  for (const robot::ActuatorTraits& one : traits) least_force_N_.push_back(one.least_force_N);
 }
 
-void ActuatorCondensation::Start(const std::vector<robot::CableCommand>& commands,
+void ActuatorCondensation::Start(const std::vector<robot::ActuatorCommand>& commands,
                                  const Eigen::VectorXd& lambda_a_N) {
   taut_.clear();
   std::fill(changes_.begin(), changes_.end(), 0);
   for (size_t c = 0; c < commands.size(); ++c) {
     const auto row = ToIndex(c);
     fixed_[row] = commands[c].kind == Kind::kTension ? commands[c].value : 0.0;
-    if (commands[c].kind == Kind::kDisplacement && lambda_a_N[row] > 0.0) {
+    if (commands[c].kind != Kind::kDisplacement) continue;
+    if (lambda_a_N[row] > least_force_N_[c]) {
       taut_.push_back(static_cast<int>(c));
+    } else {
+      fixed_[row] = least_force_N_[c];
     }
   }
 }
 
 Status ActuatorCondensation::Condense(const robot::Compliance& compliance,
-                                      const std::vector<robot::CableCommand>& commands) {
+                                      const std::vector<robot::ActuatorCommand>& commands) {
   const auto t = ToIndex(taut_.size());
   const Eigen::Index f = compliance.W_ef().cols();
   G_ = compliance.W_ef();
@@ -91,7 +96,7 @@ void ActuatorCondensation::CableForces(const Eigen::VectorXd& lambda_f_N,
 }
 
 bool ActuatorCondensation::Settle(const robot::Compliance& compliance,
-                                  const std::vector<robot::CableCommand>& commands,
+                                  const std::vector<robot::ActuatorCommand>& commands,
                                   const Eigen::VectorXd& lambda_f_N) {
   CableForces(lambda_f_N, &lambda_a_);
   compliance.CableDisplacements(lambda_a_, lambda_f_N, &delta_a_);
@@ -103,11 +108,12 @@ bool ActuatorCondensation::Settle(const robot::Compliance& compliance,
     const auto row = ToIndex(c);
     const auto place = std::find(taut_.begin(), taut_.end(), static_cast<int>(c));
     const bool taut = place != taut_.end();
-    const bool pushes = taut && lambda_a_[row] < 0.0;
+    const bool pushes = taut && lambda_a_[row] < least_force_N_[c];
     const bool too_long =
         !taut && delta_a_[row] < commands[c].value - kCondensationTuning.displacement_tolerance_m;
     if (pushes) taut_.erase(place);
     if (too_long) taut_.push_back(static_cast<int>(c));
+    if (pushes || too_long) fixed_[row] = pushes ? least_force_N_[c] : 0.0;
     if (pushes || too_long) {
       ++changes_[c];
       settled = false;

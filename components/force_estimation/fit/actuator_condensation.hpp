@@ -20,19 +20,21 @@ namespace palpate::force_estimation {
 /// tension). Which of them is part of the solution; Settle finds it.
 class ActuatorCondensation {
  public:
-  ActuatorCondensation(int effector_rows, int cables);
+  ActuatorCondensation(int effector_rows, const std::vector<robot::ActuatorTraits>& traits);
 
   /// Begins with the cables taut that have a tension in `lambda_a_N` [a].
-  void Start(const std::vector<robot::CableCommand>& commands, const Eigen::VectorXd& lambda_a_N);
+  void Start(const std::vector<robot::ActuatorCommand>& commands,
+             const Eigen::VectorXd& lambda_a_N);
 
   /// Computes the response for the present set of taut cables. kUnobservable where the
   /// compliances of taut cables are linearly dependent.
   Status Condense(const robot::Compliance& compliance,
-                  const std::vector<robot::CableCommand>& commands);
+                  const std::vector<robot::ActuatorCommand>& commands);
 
-  /// Whether every cable is taut or slack as assumed under lambda_f; else changes the set, and
+  /// Whether every actuator is taut or slack as assumed under lambda_f; else changes the set, and
   /// Condense must be called again. A cable is changed at most a few times, so this ends.
-  bool Settle(const robot::Compliance& compliance, const std::vector<robot::CableCommand>& commands,
+  bool Settle(const robot::Compliance& compliance,
+              const std::vector<robot::ActuatorCommand>& commands,
               const Eigen::VectorXd& lambda_f_N);
 
   const Eigen::MatrixXd& G() const { return G_; }      ///< [3e x f] m/N
@@ -45,8 +47,10 @@ class ActuatorCondensation {
                       Eigen::VectorXd* effector_motion_m) const;
 
  private:
-  Eigen::VectorXd fixed_;  ///< [a] imposed tensions, N; 0 for cables under displacement control
-  std::vector<int> taut_;  ///< cables whose displacement is imposed
+  /// [a] imposed tensions, N. Under displacement control 0 where taut, else the least.
+  Eigen::VectorXd fixed_;
+  std::vector<double> least_force_N_;  ///< [a] at which a cable is slack, a chamber at a vacuum
+  std::vector<int> taut_;              ///< cables whose displacement is imposed
   std::vector<int> changes_;
   fem::QpMatrix inverse_TT_;
   fem::QpMatrix T_taut_;   ///< [taut x f]

@@ -16,7 +16,7 @@ namespace palpate::force_estimation {
 
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 struct ForceFitterTuning {
   /// Changes between taut and slack cables in one QP. More serve robots of many cables; each costs
@@ -82,15 +82,15 @@ ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
       config_(config),
       compliance_(model.linearisation(), MarkerRows(model)),
       static_solver_(model.linearisation(), kForceFitterTuning.continuation),
-      condensation_(static_cast<int>(3 * model.body().markers.size()), model.CableCount()),
+      condensation_(static_cast<int>(3 * model.body().markers.size()), model.traits()),
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())),
       external_force_N_(weight_N_),
-      new_lambda_a_(model.CableCount()),
+      new_lambda_a_(model.ActuatorCount()),
       nodal_(weight_N_),
       gradient_(weight_N_),
       cable_gradient_(weight_N_),
       effector_motion_(ToIndex(3 * model.body().markers.size())),
-      cable_motion_(model.CableCount()),
+      cable_motion_(model.ActuatorCount()),
       responses_(model.linearisation().Size(), 1) {
   fit_.residual_m = Eigen::VectorXd::Zero(effector_motion_.size());
   SetSites({});
@@ -125,7 +125,7 @@ void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
       variables->lambda_a_N = new_lambda_a_;
       variables->lambda_f_N = new_lambda_f_;
     }
-    accelerator_.SetUp(weight_N_.size(), model_.CableCount(), forces);
+    accelerator_.SetUp(weight_N_.size(), model_.ActuatorCount(), forces);
   }
   observable_.IncludeAll(sites_);
   last_good_.valid = false;
@@ -134,8 +134,8 @@ void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
 }
 
 const ForceFit& ForceFitter::Fit(const RowTargets& targets,
-                                 const std::vector<robot::CableCommand>& cables, ModelState* state,
-                                 const fem::TimeBudget& budget) {
+                                 const std::vector<robot::ActuatorCommand>& cables,
+                                 ModelState* state, const fem::TimeBudget& budget) {
   frame_ = {.targets = &targets, .cables = &cables, .budget = &budget, .state = state};
   fit_.iterations = fit_.chord_steps = fit_.continuation_steps = 0;
   UpdateWeight();
@@ -210,17 +210,16 @@ Status ForceFitter::PrepareFrozenFactorStep() {
         model_.linearisation().UpdateResidual(state.x_m, state.lambda_a_N, external_force_N_);
     if (!evaluated.ok()) return evaluated;
     if (factor_.columns_current) {
-      compliance_.ComputeChord(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
+      compliance_.ComputeChord(state.x_m, model_.actuator_rest_m(), state.lambda_a_N,
                                state.lambda_f_N);
       work_ += 1.0;
     } else {
-      compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
-                          state.lambda_f_N);
+      compliance_.Compute(state.x_m, model_.actuator_rest_m(), state.lambda_a_N, state.lambda_f_N);
       factor_.columns_current = true;
       work_ += kColumnsWork;
     }
   }
-  compliance_.Observe(state.x_m, model_.cable_rest_length_m());
+  compliance_.Observe(state.x_m, model_.actuator_rest_m());
   const Status status = SolveInObservableDirections(state);
   if (status.ok()) frame_.start_error = Error(state);
   return status;
@@ -261,7 +260,7 @@ Status ForceFitter::Try(double length, bool last) {
   trial_.error = EquilibriumError(trial_.state);
   if (last && trial_.error > config_.frame_tolerance) return status;
   work_ += 1.0;
-  compliance_.ComputeChord(trial_.state.x_m, model_.cable_rest_length_m(), trial_.state.lambda_a_N,
+  compliance_.ComputeChord(trial_.state.x_m, model_.actuator_rest_m(), trial_.state.lambda_a_N,
                            trial_.state.lambda_f_N);
   status = SolveQp(*frame_.targets, *frame_.cables, trial_.state);
   if (!status.ok()) return status;
@@ -314,16 +313,17 @@ double ForceFitter::EquilibriumError(const ModelState& state) const {
 }
 
 /// Length by which a taut cable misses its displacement, or by which a slack one is too long, over
-/// its rest length; the largest of all cables.
+/// its rest length; the same of chambers; the largest of all.
 double ForceFitter::CableError(const ModelState& state) const {
   double error = 0.0;
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const robot::CableCommand& command = (*frame_.cables)[At(c)];
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
+    const robot::ActuatorCommand& command = (*frame_.cables)[At(c)];
     if (command.kind != Kind::kDisplacement) continue;
-    const double missing_m = command.value - model_.cable(c).Displacement_m(state.x_m);
-    const bool taut = state.lambda_a_N[c] > 0.0;
-    error =
-        std::max(error, (taut ? std::abs(missing_m) : missing_m) / model_.cable(c).rest_length_m());
+    const robot::Actuator& actuator = model_.actuator(c);
+    const double missing_m = command.value - actuator.Displacement_m(state.x_m);
+    const bool taut = state.lambda_a_N[c] > model_.traits(c).least_force_N;
+    error = std::max(error,
+                     (taut ? std::abs(missing_m) : missing_m) / std::abs(actuator.rest_value_m()));
   }
   return error;
 }
@@ -393,7 +393,7 @@ Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
   if (!status.ok()) return status;
   factor_.known = !model_.linearisation().shifted();
   factor_.columns_current = true;
-  compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N, state.lambda_f_N);
+  compliance_.Compute(state.x_m, model_.actuator_rest_m(), state.lambda_a_N, state.lambda_f_N);
   work_ += kFactorWork + kColumnsWork;
   return status;
 }
@@ -425,7 +425,7 @@ fem::QpMatrix ForceFitter::Information(const RowTargets& targets) const {
 
 /// Eqs. (11), (12) in the observable directions. The taut cables are found with the forces.
 Status ForceFitter::SolveQp(const RowTargets& targets,
-                            const std::vector<robot::CableCommand>& cables,
+                            const std::vector<robot::ActuatorCommand>& cables,
                             const ModelState& state) {
   const fem::QpMatrix& basis = observable_.basis();
   const Eigen::Index q = basis.cols();
@@ -500,16 +500,21 @@ void ForceFitter::UnfittedError(const RowTargets& targets) {
 }
 
 Status ForceFitter::CheckTensions(const ModelState& state) const {
-  for (int c = 0; c < model_.CableCount(); ++c) {
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
     const double tension_N = state.lambda_a_N[c];
-    const robot::BodyCable& cable = model_.body().cables[At(c)];
-    if (tension_N < -most_push_N_) {
-      return {StatusCode::kNotConverged, "cable " + cable.name + " would have to push"};
+    const robot::ActuatorTraits& limits = model_.traits(c);
+    if (tension_N < limits.least_force_N - most_push_N_) {
+      return {StatusCode::kNotConverged,
+              limits.Title() +
+                  (limits.IsChamber() ? " would be below a vacuum" : " would have to push")};
     }
-    if (tension_N > cable.max_tension_N) {
-      return {StatusCode::kTensionLimit, "cable " + cable.name + " would have to pull with " +
-                                             FormatNumber(tension_N) +
-                                             " N, more than its max_tension_N"};
+    if (tension_N > limits.most_force_N) {
+      return {
+          StatusCode::kTensionLimit,
+          limits.Title() +
+              (limits.IsChamber() ? " would need a pressure of " : " would have to pull with ") +
+              FormatNumber(limits.ReportedForce(tension_N)) + " " + limits.force_unit() +
+              ", more than its " + (limits.IsChamber() ? "max_pressure_Pa" : "max_tension_N")};
     }
   }
   return Status::Ok();
@@ -546,9 +551,9 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
     for (size_t r = 0; r < rows().size(); ++r) {
       effector_motion_[ToIndex(r)] = rows()[r].Value(gradient_);
     }
-    for (int c = 0; c < model_.CableCount(); ++c) {
+    for (int c = 0; c < model_.ActuatorCount(); ++c) {
       cable_gradient_.setZero();
-      model_.cable(c).AddGradient(x_m, -1.0, cable_gradient_);
+      model_.actuator(c).AddGradient(x_m, -1.0, cable_gradient_);
       cable_motion_[c] = cable_gradient_.dot(gradient_);
     }
     condensation_.HoldTautCables(compliance_, cable_motion_, &effector_motion_);
@@ -558,8 +563,8 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
 
 /// By reciprocity all candidates together cost one solve for each row.
 Status ForceFitter::Screen(const RowTargets& targets,
-                           const std::vector<robot::CableCommand>& cables, const ModelState& state,
-                           const std::vector<FitSite>& candidates,
+                           const std::vector<robot::ActuatorCommand>& cables,
+                           const ModelState& state, const std::vector<FitSite>& candidates,
                            std::vector<ScreenedSite>* screened) {
   const std::vector<FitSite> sites = sites_;
   screened->clear();

@@ -143,7 +143,7 @@ class ForceFitter final : private fem::NewtonProblem {
   /// under the cable inputs. The result stays valid until the next call. Where the status is
   /// neither kOk nor kBudgetReached, `state` is one from before that may be used. After the first
   /// frame nothing is allocated unless a continuation step is needed.
-  const ForceFit& Fit(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  const ForceFit& Fit(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                       ModelState* state, const fem::TimeBudget& budget = {});
 
   const ForceFit& fit() const { return fit_; }  ///< of the last Fit
@@ -163,7 +163,7 @@ class ForceFitter final : private fem::NewtonProblem {
 
   /// A force at one more site, to first order about `state`, the others fitted again: one result
   /// for each of `candidates`. Not ok where the state cannot be linearised.
-  Status Screen(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  Status Screen(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                 const ModelState& state, const std::vector<FitSite>& candidates,
                 std::vector<ScreenedSite>* screened);
 
@@ -175,7 +175,7 @@ class ForceFitter final : private fem::NewtonProblem {
   /// Arguments and progress of the present Fit.
   struct Frame {
     const RowTargets* targets = nullptr;
-    const std::vector<robot::CableCommand>* cables = nullptr;
+    const std::vector<robot::ActuatorCommand>* cables = nullptr;
     const fem::TimeBudget* budget = nullptr;
     ModelState* state = nullptr;
     bool observability_known = false;  ///< the observable subspace is that of this frame
@@ -221,7 +221,7 @@ class ForceFitter final : private fem::NewtonProblem {
   Status Linearise(const ModelState& state, bool allow_shift);
   bool IsEvaluated(const ModelState& state) const;
   Status SolveInObservableDirections(const ModelState& state);
-  Status SolveQp(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  Status SolveQp(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
                  const ModelState& state);
   double Error(const ModelState& state) const;
   double EquilibriumError(const ModelState& state) const;

@@ -38,8 +38,8 @@ void CableHistory::BeginSequence(bool time_went_back) {
   went_back_ = false;
 }
 
-std::optional<std::vector<robot::CableCommand>> CableHistory::At(int64_t stamp_ns) const {
-  if (cable_count_ == 0) return std::vector<robot::CableCommand>();
+std::optional<std::vector<robot::ActuatorCommand>> CableHistory::At(int64_t stamp_ns) const {
+  if (cable_count_ == 0) return std::vector<robot::ActuatorCommand>();
   const auto after = std::lower_bound(
       readings_.begin(), readings_.end(), stamp_ns,
       [](const CableReading& reading, int64_t stamp) { return reading.stamp_ns < stamp; });
@@ -53,7 +53,7 @@ std::optional<std::vector<robot::CableCommand>> CableHistory::At(int64_t stamp_n
 }
 
 Status CableHistory::LastBefore(int64_t stamp_ns, double max_age_s,
-                                std::vector<robot::CableCommand>* commands) const {
+                                std::vector<robot::ActuatorCommand>* commands) const {
   const auto after = std::upper_bound(
       readings_.begin(), readings_.end(), stamp_ns,
       [](int64_t stamp, const CableReading& reading) { return stamp < reading.stamp_ns; });
@@ -71,10 +71,10 @@ Status CableHistory::LastBefore(int64_t stamp_ns, double max_age_s,
   return Status::Ok();
 }
 
-std::vector<robot::CableCommand> CableHistory::Commands(const CableReading& before,
-                                                        const CableReading& after,
-                                                        double share) const {
-  std::vector<robot::CableCommand> commands;
+std::vector<robot::ActuatorCommand> CableHistory::Commands(const CableReading& before,
+                                                           const CableReading& after,
+                                                           double share) const {
+  std::vector<robot::ActuatorCommand> commands;
   for (size_t i = 0; i < cable_count_; ++i) {
     const auto& first = before.cables[i];
     const auto& second = after.cables[i];

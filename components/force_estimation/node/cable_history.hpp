@@ -31,15 +31,15 @@ class CableHistory {
 
   /// Commands at `stamp_ns`: those of that stamp, or interpolated linearly; nullopt where the
   /// readings do not cover the time (yet).
-  std::optional<std::vector<robot::CableCommand>> At(int64_t stamp_ns) const;
+  std::optional<std::vector<robot::ActuatorCommand>> At(int64_t stamp_ns) const;
   /// The last commands at or before `stamp_ns`; kStale, with their age, where they are older than
   /// `max_age_s`.
   Status LastBefore(int64_t stamp_ns, double max_age_s,
-                    std::vector<robot::CableCommand>* commands) const;
+                    std::vector<robot::ActuatorCommand>* commands) const;
 
  private:
-  std::vector<robot::CableCommand> Commands(const CableReading& before, const CableReading& after,
-                                            double share) const;
+  std::vector<robot::ActuatorCommand> Commands(const CableReading& before,
+                                               const CableReading& after, double share) const;
 
   static constexpr size_t kCapacity = 1000;
 

@@ -39,7 +39,7 @@ struct FrameInput {
   /// There is no frame yet: the posture that its cable inputs give is computed and expected.
   bool posture_only = false;
 
-  std::vector<robot::CableCommand>& cables() {
+  std::vector<robot::ActuatorCommand>& cables() {
     if (auto* shape = std::get_if<PerceivedShape>(&frame)) return shape->frame.cables;
     return std::get<MarkerFrame>(frame).cables;
   }

@@ -70,7 +70,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       health_(participant_, "force_estimation", Clock::now()),
       worker_(std::move(model), maker ? maker : PipelineMakerOf(config, calibration),
               [this] { loop_.Wake(); }),
-      cable_names_(worker_.model().CableNames()),
+      cable_names_(worker_.model().ActuatorNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
       outputs_(participant_, worker_.model().body(), IsFromShape(config), GivenContacts(config)),
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
@@ -146,6 +146,7 @@ void ForceEstimationNode::TakeJointStates() {
     CableReading reading;
     const Status status = dds::FromJointState(message, cable_names_, &reading);
     if (status.ok()) {
+      robot::ToPistons(worker_.model().traits(), &reading);
       reading.stamp_ns = participant_.clock()->CableStampOfFrames_ns(reading.stamp_ns);
       stamp_ns = reading.stamp_ns;
       cables_.Add(std::move(reading));

@@ -36,8 +36,9 @@ class Worker {
   std::unique_ptr<robot::RobotModel> model_;
   PipelineMaker maker_;
   std::unique_ptr<Pipeline> pipeline_;
-  std::vector<robot::CableCommand> posture_cables_;  ///< that posture_m_ is the equilibrium under
-  Eigen::VectorXd posture_m_;                        ///< [3n] empty: none
+  std::vector<robot::ActuatorCommand>
+      posture_cables_;         ///< that posture_m_ is the equilibrium under
+  Eigen::VectorXd posture_m_;  ///< [3n] empty: none
   palpate::Worker<FrameInput, FrameResult> worker_;
 };
 

@@ -193,12 +193,12 @@ bool HiddenContacts::LeavesToNextFrame() {
   return left_over_;
 }
 
-void HiddenContacts::PrepareNext(const std::vector<robot::CableCommand>& cables) {
+void HiddenContacts::PrepareNext(const std::vector<robot::ActuatorCommand>& cables) {
   if (left_over_ && !Respond(cables).ok()) left_over_ = false;
 }
 
 /// Responses of this frame's surface points about the present shape.
-Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
+Status HiddenContacts::Respond(const std::vector<robot::ActuatorCommand>& cables) {
   if (linearisations_ != fit_.linearisations()) {
     responses_.Clear();
     std::fill(row_of_feature_.begin(), row_of_feature_.end(), -1);

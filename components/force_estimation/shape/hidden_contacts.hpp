@@ -68,7 +68,7 @@ class HiddenContacts {
   /// undoing an attempt failed, too.
   Status Find(const ShapeFrame& frame, const DepthBias& bias);
   /// Solves for the responses that the last Find postponed, if any.
-  void PrepareNext(const std::vector<robot::CableCommand>& cables);
+  void PrepareNext(const std::vector<robot::ActuatorCommand>& cables);
   /// The contacts of the last search were removed: the next one is later.
   void CountAsFailed();
   /// Removes all hidden sites.
@@ -89,7 +89,7 @@ class HiddenContacts {
   void AddToAverage();
   Unexplained LeftOver() const;
   Unexplained OfHidden() const;
-  Status Respond(const std::vector<robot::CableCommand>& cables);
+  Status Respond(const std::vector<robot::ActuatorCommand>& cables);
   Status Decide(const ShapeFrame& frame, const DepthBias& bias);
   bool Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
            const DepthBias& bias, Status* status);

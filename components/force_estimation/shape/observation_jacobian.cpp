@@ -24,12 +24,12 @@ struct TautCables {
   std::optional<linalg::Cholesky> compliance;
 
   Status Solve(robot::RobotModel& model, const Eigen::VectorXd& x_m,
-               const std::vector<robot::CableCommand>& commands,
+               const std::vector<robot::ActuatorCommand>& commands,
                const Eigen::VectorXd& lambda_a_N) {
     std::vector<int> taut;
-    for (int c = 0; c < model.CableCount(); ++c) {
-      const bool driven = commands[At(c)].kind == robot::CableCommand::Kind::kDisplacement;
-      if (driven && lambda_a_N[c] > 0.0) taut.push_back(c);
+    for (int c = 0; c < model.ActuatorCount(); ++c) {
+      const bool driven = commands[At(c)].kind == robot::ActuatorCommand::Kind::kDisplacement;
+      if (driven && lambda_a_N[c] > model.traits(c).least_force_N) taut.push_back(c);
     }
     fem::Linearisation& linearisation = model.linearisation();
     pull.setZero(linearisation.Size(), ToIndex(taut.size()));
@@ -37,7 +37,7 @@ struct TautCables {
     Eigen::VectorXd nodal(x_m.size());
     for (size_t t = 0; t < taut.size(); ++t) {
       nodal.setZero();
-      model.cable(taut[t]).AddGradient(x_m, -1.0, nodal);
+      model.actuator(taut[t]).AddGradient(x_m, -1.0, nodal);
       linearisation.matrix().Reduce(nodal, pull.col(ToIndex(t)));
     }
     motion = pull;
@@ -81,10 +81,10 @@ std::vector<size_t> OrderOfElimination(const std::vector<robot::ObservationRow>&
 Status ObservationJacobian::Add(robot::RobotModel& model,
                                 const std::vector<robot::ObservationRow>& rows,
                                 const Eigen::VectorXd& x_m,
-                                const std::vector<robot::CableCommand>& commands,
+                                const std::vector<robot::ActuatorCommand>& commands,
                                 const Eigen::VectorXd& lambda_a_N) {
-  PALPATE_CHECK(static_cast<int>(commands.size()) == model.CableCount(), commands.size());
-  PALPATE_CHECK(lambda_a_N.size() == model.CableCount(), lambda_a_N.size());
+  PALPATE_CHECK(static_cast<int>(commands.size()) == model.ActuatorCount(), commands.size());
+  PALPATE_CHECK(lambda_a_N.size() == model.ActuatorCount(), lambda_a_N.size());
   fem::Linearisation& linearisation = model.linearisation();
   const fem::StiffnessMatrix& matrix = linearisation.matrix();
   TautCables cables;

@@ -24,7 +24,7 @@ class ObservationJacobian {
   /// cables are collinear), kInvalidInput where a response is not finite: then none of `rows` is
   /// appended.
   Status Add(robot::RobotModel& model, const std::vector<robot::ObservationRow>& rows,
-             const Eigen::VectorXd& x_m, const std::vector<robot::CableCommand>& commands,
+             const Eigen::VectorXd& x_m, const std::vector<robot::ActuatorCommand>& commands,
              const Eigen::VectorXd& lambda_a_N);
   void Clear();
   int Count() const { return static_cast<int>(columns_.cols()); }

@@ -42,7 +42,7 @@ class ShapeForceEstimator::Impl {
         report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma),
                 hidden_.CandidateCount(), {.uncertain_share = config.uncertain_share}),
         free_state_(model.RestState()) {
-    estimate_.cables.resize(static_cast<std::size_t>(model.CableCount()));
+    estimate_.cables.resize(static_cast<std::size_t>(model.ActuatorCount()));
     estimate_.x_m = free_state_.x_m;
     features_.resize(model.body().feature_points.size());
   }
@@ -115,7 +115,7 @@ class ShapeForceEstimator::Impl {
   ForceEstimate estimate_;
   bool published_ = false;
   bool fitted_ = false;  ///< the last frame, and PrepareNext was not called since
-  std::vector<robot::CableCommand> cables_;  ///< its inputs
+  std::vector<robot::ActuatorCommand> cables_;  ///< its inputs
 };
 
 Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
@@ -138,8 +138,9 @@ void ShapeForceEstimator::Impl::CommitHistory() {
 }
 
 Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
-  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.CableCount(), frame.cables.size());
-  for (const robot::CableCommand& command : frame.cables) {
+  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.ActuatorCount(),
+                frame.cables.size());
+  for (const robot::ActuatorCommand& command : frame.cables) {
     if (!std::isfinite(command.value)) {
       return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
     }
@@ -346,11 +347,13 @@ void ShapeForceEstimator::Impl::PublishState() {
   published_ = true;
   const ModelState& state = fit_.state();
   estimate_.x_m = state.x_m;
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const double length_m = model_.cable(c).Value(state.x_m);
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
+    const robot::Actuator& actuator = model_.actuator(c);
+    const double length_m = actuator.Value(state.x_m);
+    const double least_N = model_.traits(c).least_force_N;
     estimate_.cables[At(c)] = {.length_m = length_m,
-                               .displacement_m = model_.cable(c).rest_length_m() - length_m,
-                               .tension_N = std::max(0.0, state.lambda_a_N[c])};
+                               .displacement_m = actuator.rest_value_m() - length_m,
+                               .tension_N = std::max(least_N, state.lambda_a_N[c])};
   }
 }
 
@@ -374,7 +377,7 @@ void ShapeForceEstimator::Impl::Withdraw() {
   estimate_.residual_rms_m = estimate_.noise_rms_m = estimate_.chi_squared = kUnknown;
   estimate_.degrees_of_freedom = 0;
   estimate_.x_m.setConstant(kUnknown);
-  for (robot::CableState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
+  for (robot::ActuatorState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
   for (FeatureReport& feature : features_) feature = {};
 }
 

@@ -32,7 +32,7 @@ struct ShapeFrame {
   rgbd::SensedCloud cloud;  ///< the robot's points, camera frame
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   std::vector<SeenContact> contacts;
-  std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  std::vector<robot::ActuatorCommand> cables;  ///< in the order of the robot's cables
   /// Of the camera, or the number of the recording. A change begins a sequence, whose contacts are
   /// unknown.
   std::uint32_t epoch = 0;

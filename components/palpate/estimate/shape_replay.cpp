@@ -108,7 +108,8 @@ ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate
 }
 
 ReplayCount ShapeReplay::Run(const Scene& scene, const Frames& frames, const TakeEstimate& take) {
-  experiment::CheckCables(scene.recording, inputs_.model->CableNames());
+  experiment::CheckActuators(scene.recording, inputs_.model->CableNames(),
+                             inputs_.model->ChamberNames());
   const Eigen::Matrix3d R_base = experiment::BaseRotation(scene.recording);
   inputs_.model->SetGravity(R_base.transpose() * gravity_m_s2_);
   perception_.set_camera(scene.images.camera);

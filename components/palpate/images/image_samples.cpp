@@ -59,7 +59,7 @@ std::vector<ImageSample> SamplesOf(const experiment::Recording& recording,
 ImageSample SampleAt(const experiment::Recording& recording, const experiment::RgbdSequence& images,
                      std::size_t index, const std::string& name, const robot::RobotModel& model,
                      robot::CableInput preferred) {
-  experiment::CheckCables(recording, model.CableNames());
+  experiment::CheckActuators(recording, model.CableNames(), model.ChamberNames());
   const double t_s = NsToSeconds(images.frames[index].t_ns);
   return {.images = &images,
           .index = index,

@@ -18,7 +18,7 @@ namespace palpate::command {
 
 namespace {
 
-using robot::CableCommand;
+using robot::ActuatorCommand;
 
 Eigen::Index TipOf(const robot::RobotBody& body) {
   Eigen::Vector3d fixed_m = Eigen::Vector3d::Zero();
@@ -47,13 +47,13 @@ Eigen::Map<const Eigen::Matrix3Xd> Nodes(const Eigen::VectorXd& x_m) {
 PullTrial Pull(int cable, double pull_m, Eigen::Index tip, const fem::StaticState& rest,
                robot::RobotModel* model) {
   PullTrial trial{.cable = model->body().cables[At(cable)].name, .status = {}, .pull_m = pull_m};
-  std::vector<CableCommand> commands(At(model->CableCount()));
-  const double at_rest_m = model->StateOfCable(cable, rest).displacement_m;
-  commands[At(cable)] = {CableCommand::Kind::kDisplacement, at_rest_m + pull_m};
+  std::vector<ActuatorCommand> commands(At(model->ActuatorCount()));
+  const double at_rest_m = model->StateOfActuator(cable, rest).displacement_m;
+  commands[At(cable)] = {ActuatorCommand::Kind::kDisplacement, at_rest_m + pull_m};
   fem::StaticState state = rest;
   trial.status = model->Solve(commands, {}, &state).status;
   if (!trial.status.ok()) return trial;
-  trial.tension_N = model->StateOfCable(cable, state).tension_N;
+  trial.tension_N = model->StateOfActuator(cable, state).tension_N;
   const Eigen::Matrix3Xd motion_m = Nodes(state.x_m) - Nodes(rest.x_m);
   trial.tip_motion_m = motion_m.col(tip);
   trial.largest_motion_m = motion_m.colwise().norm().maxCoeff();
@@ -118,12 +118,12 @@ RobotCheck CheckRobot(robot::RobotModel* model, double most_s) {
     return !check.cut_short;
   });
   fem::StaticState rest = model->RestState();
-  const std::vector<CableCommand> no_commands(At(model->CableCount()));
+  const std::vector<ActuatorCommand> no_commands(At(model->ActuatorCount()));
   check.rest = model->Solve(no_commands, {}, &rest).status;
   int solved = 1;
   if (check.rest.ok()) {
     check.sag_m = (Nodes(rest.x_m) - body.mesh.nodes_m).colwise().norm().maxCoeff();
-    for (int cable = 0; cable < model->CableCount() && !check.cut_short; ++cable, ++solved) {
+    for (int cable = 0; cable < model->ActuatorCount() && !check.cut_short; ++cable, ++solved) {
       PullTrial trial = Pull(cable, TrialPull_m(body), tip, rest, model);
       if (!check.cut_short) check.pulls.push_back(std::move(trial));
     }

@@ -16,7 +16,7 @@ namespace palpate::command {
 
 namespace {
 
-using experiment::CableQuantity;
+using experiment::ActuatorQuantity;
 
 constexpr double kLargestPull_m = 2.0;  ///< of actuation.csv
 
@@ -167,9 +167,9 @@ ActuationRows::Part ActuationRows::PartOf(const Rows& rows, int segment) {
     part.times.push_back(time);
     part.table.t_s.push_back(TableTime(time.second));
   }
-  const auto add = [&](const std::string& cable, CableQuantity quantity,
+  const auto add = [&](const std::string& cable, ActuatorQuantity quantity,
                        std::optional<double> CollectedJoint::*input) {
-    experiment::CableColumn column{
+    experiment::ActuatorColumn column{
         .cable = cable, .quantity = quantity, .samples = {}, .where = {}};
     bool any = false;
     for (const auto* joints : joints_of) {
@@ -180,8 +180,8 @@ ActuationRows::Part ActuationRows::PartOf(const Rows& rows, int segment) {
     if (any) part.table.columns.push_back(std::move(column));
   };
   for (const std::string& cable : cables) {
-    add(cable, CableQuantity::kDisplacement, &CollectedJoint::position_m);
-    add(cable, CableQuantity::kTension, &CollectedJoint::effort_N);
+    add(cable, ActuatorQuantity::kDisplacement, &CollectedJoint::position_m);
+    add(cable, ActuatorQuantity::kTension, &CollectedJoint::effort_N);
   }
   return part;
 }
@@ -190,7 +190,7 @@ ActuationRows::Part ActuationRows::PartOf(const Rows& rows, int segment) {
 experiment::Actuation ActuationRows::RowsWithin(const Part& all, const Phase& phase) {
   experiment::Actuation part;
   part.columns = all.table.columns;
-  for (experiment::CableColumn& column : part.columns) column.samples.clear();
+  for (experiment::ActuatorColumn& column : part.columns) column.samples.clear();
   for (std::size_t row = 0; row < all.times.size(); ++row) {
     if (!phase.Contains(all.times[row].second, all.times[row].first)) continue;
     part.t_s.push_back(all.table.t_s[row]);
@@ -202,7 +202,7 @@ experiment::Actuation ActuationRows::RowsWithin(const Part& all, const Phase& ph
   const bool empty = part.t_s.empty();
   if (empty) part.t_s.push_back(begin_s);
   for (std::size_t i = 0; i < part.columns.size(); ++i) {
-    const experiment::CableColumn& column = all.table.columns[i];
+    const experiment::ActuatorColumn& column = all.table.columns[i];
     auto& samples = part.columns[i].samples;
     if (empty) samples.push_back(all.table.ValueAt(column, begin_s));
     const bool any = std::any_of(samples.begin(), samples.end(),

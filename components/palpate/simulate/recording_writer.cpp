@@ -20,8 +20,8 @@ namespace palpate::command {
 namespace {
 
 namespace fs = std::filesystem;
-using experiment::CableColumn;
-using experiment::CableQuantity;
+using experiment::ActuatorColumn;
+using experiment::ActuatorQuantity;
 
 std::optional<double> Sample(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -54,9 +54,20 @@ RecordingWriter::RecordingWriter(const robot::RobotDescription& robot,
     if (scenario.camera->camera.color.width_px > 0) experiment::CreateFolder(folder_ / "color");
   }
   for (const robot::CableSettings& cable : robot.cables) {
-    for (const CableQuantity quantity : {CableQuantity::kDisplacement, CableQuantity::kTension}) {
+    for (const ActuatorQuantity quantity :
+         {ActuatorQuantity::kDisplacement, ActuatorQuantity::kTension}) {
       actuation_.columns.push_back(
           {.cable = cable.name, .quantity = quantity, .samples = {}, .where = {}});
+    }
+  }
+  for (const robot::ChamberSettings& chamber : robot.chambers) {
+    for (const ActuatorQuantity quantity :
+         {ActuatorQuantity::kDisplacement, ActuatorQuantity::kTension}) {
+      actuation_.columns.push_back({.cable = chamber.name,
+                                    .quantity = quantity,
+                                    .samples = {},
+                                    .where = {},
+                                    .of_chamber = true});
     }
   }
   for (const robot::MarkerSettings& marker : robot.markers) markers_.names.push_back(marker.name);
@@ -68,8 +79,10 @@ void RecordingWriter::AddCables(double t_s,
   actuation_.t_s.push_back(t_s);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const bool driven = std::isfinite(readings[i].displacement_m);
+    const bool of_chamber = actuation_.columns[2 * i].of_chamber;
+    const double least = of_chamber ? readings[i].tension_N : 0.0;
     const double tension_N =
-        driven ? std::max(0.0, readings[i].tension_N) : readings[i].displacement_m;
+        driven ? std::max(least, readings[i].tension_N) : readings[i].displacement_m;
     actuation_.columns[2 * i].samples.push_back(Sample(readings[i].displacement_m));
     actuation_.columns[2 * i + 1].samples.push_back(Sample(tension_N));
   }
@@ -97,7 +110,7 @@ void RecordingWriter::AddImage(const rgbd::RgbdFrame& frame) {
 }
 
 void RecordingWriter::Finish(double begin_s) {
-  std::erase_if(actuation_.columns, [](const CableColumn& column) {
+  std::erase_if(actuation_.columns, [](const ActuatorColumn& column) {
     return std::none_of(column.samples.begin(), column.samples.end(),
                         [](const std::optional<double>& sample) { return sample.has_value(); });
   });

@@ -78,7 +78,7 @@ class Run {
         scenario_{job.scenario},
         report_{report},
         folder_{std::move(folder)},
-        schedule_{job.scenario, scenario::NamesOf(job.robot).cables},
+        schedule_{job.scenario, scenario::NamesOf(job.robot).Actuators()},
         marker_noise_{job.seed, "marker noise"} {
     answer_.effects = DrawEffects(scenario_, scenario::NamesOf(job.robot), job.seed);
     bench_ = make_bench(job.robot, scenario_, answer_.effects, job.seed);

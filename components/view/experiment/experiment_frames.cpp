@@ -69,7 +69,7 @@ ExperimentFrames::ExperimentFrames(const experiment::Experiment& experiment, Kno
       state_(robot.model().RestState()) {
   for (const experiment::Recording& recording : experiment.recordings) {
     experiment::CheckMarkers(recording, robot.model().MarkerNames());
-    experiment::CheckCables(recording, robot.model().CableNames());
+    experiment::CheckActuators(recording, robot.model().CableNames(), robot.model().ChamberNames());
     if (recording.markers) experiment::RequireRobotFromMarkers(experiment, recording);
     for (const experiment::KnownLoad& load : recording.loads) {
       experiment::RequireOnBody(load, robot.model().locator().Distance_m(load.position_m));
@@ -102,19 +102,19 @@ std::optional<Eigen::Vector3d> ExperimentFrames::sigma_m(const ExperimentInstant
   return covariance_m2.diagonal().cwiseSqrt();
 }
 
-std::vector<robot::CableCommand> ExperimentFrames::CommandsAt(
+std::vector<robot::ActuatorCommand> ExperimentFrames::CommandsAt(
     const ExperimentInstant& instant) const {
-  using experiment::CableQuantity;
+  using experiment::ActuatorQuantity;
   const experiment::Recording& recording = RecordingOf(instant);
-  std::vector<robot::CableCommand> commands;
-  const std::vector<std::string> names = robot_.model().CableNames();
+  std::vector<robot::ActuatorCommand> commands;
+  const std::vector<std::string> names = robot_.model().ActuatorNames();
   for (std::size_t cable = 0; cable < names.size(); ++cable) {
-    const auto at = [&](CableQuantity quantity) {
-      return experiment::CableInputAt(recording, names[cable], quantity, instant.t_s);
+    const auto at = [&](ActuatorQuantity quantity) {
+      return experiment::ActuatorInputAt(recording, names[cable], quantity, instant.t_s);
     };
-    commands.push_back(
-        robot_.model().CommandFor(static_cast<int>(cable), at(CableQuantity::kDisplacement),
-                                  at(CableQuantity::kTension), robot::CableInput::kDisplacement));
+    commands.push_back(robot_.model().CommandFor(
+        static_cast<int>(cable), at(ActuatorQuantity::kDisplacement),
+        at(ActuatorQuantity::kTension), robot::CableInput::kDisplacement));
   }
   return commands;
 }
@@ -207,13 +207,13 @@ ExperimentFrame ExperimentFrames::FrameAt(const ExperimentInstant& instant) {
   for (std::size_t k = 0; k < frame.known.size(); ++k) {
     frame.known[k].position_m = loads[k].weights.Position(state_.x_m);
   }
-  const std::vector<std::string> names = robot_.model().CableNames();
+  const std::vector<std::string> names = robot_.model().ActuatorNames();
   for (std::size_t cable = 0; cable < names.size(); ++cable) {
     frame.cables.push_back(frame.status.ok()
-                               ? robot_.model().StateOfCable(static_cast<int>(cable), state_)
-                               : robot::CableState{kNaN, kNaN, kNaN});
-    frame.measured_tension_N.push_back(experiment::CableInputAt(
-        RecordingOf(instant), names[cable], experiment::CableQuantity::kTension, instant.t_s));
+                               ? robot_.model().StateOfActuator(static_cast<int>(cable), state_)
+                               : robot::ActuatorState{kNaN, kNaN, kNaN});
+    frame.measured_tension_N.push_back(experiment::ActuatorInputAt(
+        RecordingOf(instant), names[cable], experiment::ActuatorQuantity::kTension, instant.t_s));
   }
   AddMarkers(instant, &frame);
   return frame;

@@ -28,7 +28,7 @@ struct ExperimentFrame {
   /// markers and residual are NaN.
   Status status;
   Eigen::VectorXd x_m;                                    ///< [3n]
-  std::vector<robot::CableState> cables;                  ///< of the model, by cable of the robot
+  std::vector<robot::ActuatorState> cables;               ///< of the model, by cable of the robot
   std::vector<std::optional<double>> measured_tension_N;  ///< by cable
   Eigen::Matrix3Xd measured_m;                ///< [3 x markers] robot frame; NaN: not seen
   Eigen::Matrix3Xd model_m;                   ///< [3 x markers]
@@ -60,7 +60,7 @@ class ExperimentFrames {
 
  private:
   void AddInstants();
-  std::vector<robot::CableCommand> CommandsAt(const ExperimentInstant& instant) const;
+  std::vector<robot::ActuatorCommand> CommandsAt(const ExperimentInstant& instant) const;
   std::vector<robot::DeadLoad> LoadsAt(const ExperimentInstant& instant, ExperimentFrame* frame);
   void EnterRecording(const ExperimentInstant& instant);
   void AddMarkers(const ExperimentInstant& instant, ExperimentFrame* frame) const;

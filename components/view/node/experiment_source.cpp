@@ -55,7 +55,7 @@ dds::Message<idl::sensor_msgs::JointState> CablesOf(const std::vector<std::strin
   dds::Resize(message->position, names.size());
   dds::Resize(message->effort, names.size());
   for (std::size_t cable = 0; cable < names.size(); ++cable) {
-    const robot::CableState& state = frame.cables[cable];
+    const robot::ActuatorState& state = frame.cables[cable];
     dds::SetText(message->name._buffer[cable], names[cable]);
     message->position._buffer[cable] = state.displacement_m;
     message->effort._buffer[cable] = frame.measured_tension_N[cable].value_or(state.tension_N);
@@ -127,7 +127,7 @@ void ExperimentSource::Show(const ExperimentInstant& instant) {
 
 void ExperimentSource::ShowShape(const ExperimentInstant& instant, const ExperimentFrame& frame) {
   const std::int64_t stamp_ns = StampOf(instant);
-  feed_->Take(*CablesOf(robot_.model().CableNames(), frame, stamp_ns));
+  feed_->Take(*CablesOf(robot_.model().ActuatorNames(), frame, stamp_ns));
   ShownMarkers markers{.stamp_ns = stamp_ns,
                        .names = robot_.model().MarkerNames(),
                        .measured_m = frame.measured_m,

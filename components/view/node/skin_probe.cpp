@@ -60,7 +60,7 @@ void SkinProbe::Forget() {
 }
 
 Eigen::VectorXd SkinProbe::Tensions_N() const {
-  const std::vector<std::string> names = robot_->model().CableNames();
+  const std::vector<std::string> names = robot_->model().ActuatorNames();
   Eigen::VectorXd tension_N(ToIndex(names.size()));
   for (std::size_t cable = 0; cable < names.size(); ++cable) {
     const auto found = tension_N_.find(names[cable]);

@@ -44,9 +44,8 @@ KnownRobot::KnownRobot(robot::RobotBody body)
 std::map<std::string, Eigen::Matrix3Xf> KnownRobot::CablePaths(const Eigen::VectorXd& x_m) const {
   PALPATE_CHECK(x_m.size() == 3 * NodeCount());
   std::map<std::string, Eigen::Matrix3Xf> paths_m;
-  const std::vector<std::string> names = model_.CableNames();
   for (int cable = 0; cable < model_.CableCount(); ++cable) {
-    paths_m[names[At(cable)]] = model_.cable(cable).Path_m(x_m).cast<float>();
+    paths_m[model_.traits(cable).name] = model_.cable(cable).Path_m(x_m).cast<float>();
   }
   return paths_m;
 }
@@ -110,7 +109,7 @@ Status KnownRobot::SmallestForce(const ProbedPlace& place, const Eigen::VectorXd
                                  const Eigen::VectorXd& tension_N, const MeasuredRows& measured,
                                  double significance, double* force_N) {
   PALPATE_CHECK(x_m.size() == 3 * NodeCount());
-  PALPATE_CHECK(tension_N.size() == model_.CableCount());
+  PALPATE_CHECK(tension_N.size() == model_.ActuatorCount());
   PALPATE_CHECK(measured.rows.size() == measured.sigma_m.size());
   if (measured.rows.empty()) {
     return {StatusCode::kNoRobotSeen, "nothing of the robot is measured now"};
@@ -125,7 +124,7 @@ Status KnownRobot::SmallestForce(const ProbedPlace& place, const Eigen::VectorXd
   const fem::SurfacePatch patch = model_.Patch(place.rest_m, place.radius_m);
   robot::Compliance compliance(linearisation, measured.rows);
   compliance.SetForces({robot::ForceDirection{patch.weights, -patch.normal}});
-  compliance.Compute(x_m, model_.cable_rest_length_m(), pull_N, Eigen::VectorXd::Zero(1));
+  compliance.Compute(x_m, model_.actuator_rest_m(), pull_N, Eigen::VectorXd::Zero(1));
   const Eigen::VectorXd motion_m_N = MotionPerNewton(compliance, tension_N);
   const Eigen::Map<const Eigen::VectorXd> sigma_m(measured.sigma_m.data(),
                                                   ToIndex(measured.sigma_m.size()));

@@ -27,8 +27,8 @@ BenchSetup OpenBench(const Command& command) {
   const auto effects = scenario::DrawEffects(scenario, names, seed);
   return {std::make_unique<VirtualRobot>(robot, scenario, effects, seed, command.config.threads),
           robot.name,
-          names.cables,
-          scenario::Schedule(scenario, names.cables),
+          names.Actuators(),
+          scenario::Schedule(scenario, names.Actuators()),
           Sha256Hex(ReadFile(command.scenario)),
           seed};
 }

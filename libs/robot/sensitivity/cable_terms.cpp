@@ -24,9 +24,13 @@ void CableTerms::Evaluate() {
   const RobotModel& model = point_.model();
   taut_.clear();
   angles_.clear();
-  lengths_.resize(static_cast<size_t>(model.CableCount()));
-  for (int c = 0; c < model.CableCount(); ++c) {
+  lengths_.resize(static_cast<size_t>(model.ActuatorCount()));
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     if (point_.KeepsLength(c)) taut_.push_back(c);
+    if (c >= model.CableCount()) {
+      FillChamberRow(c, &lengths_[At(c)]);
+      continue;
+    }
     FillRow(c, point_.path(c).length_gradient(), &lengths_[At(c)]);
     if (!Rubs(c)) continue;
     for (int turn = 0; turn < point_.path(c).TurnCount(); ++turn) {
@@ -46,7 +50,7 @@ void CableTerms::FillTurnForces(Eigen::Ref<Eigen::MatrixXd> columns) {
     if (!Rubs(c)) continue;
     for (int turn = 0; turn < point_.path(c).TurnCount(); ++turn) {
       point_.path(c).Turn(turn, &turn_force_, &turn_angle_);
-      turn_column_.Reset(point_.x_m().size(), point_.model().CableCount());
+      turn_column_.Reset(point_.x_m().size(), point_.model().ActuatorCount());
       point_.PullPath(c, -point_.tension_N(c), turn_force_, &turn_column_);
       nodal_.setZero(point_.x_m().size());
       turn_column_.AddForceTo(nodal_);
@@ -68,6 +72,17 @@ void CableTerms::FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow*
   }
 }
 
+void CableTerms::FillChamberRow(int actuator, NodalRow* row) {
+  row->entries.clear();
+  nodal_.setZero(point_.x_m().size());
+  point_.model().actuator(actuator).AddGradient(point_.x_m(), 1.0, nodal_);
+  for (int node = 0; 3 * node < nodal_.size(); ++node) {
+    const int free_node = point_.model().linearisation().matrix().FreeIndex(node);
+    const Eigen::Vector3d entry = nodal_.segment<3>(3 * node);
+    if (free_node >= 0 && !entry.isZero(0.0)) row->entries.emplace_back(free_node, entry);
+  }
+}
+
 Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
                                const Eigen::MatrixXd& commanded_length_m, Eigen::MatrixXd* length_m,
                                Eigen::MatrixXd* tension_N) const {
@@ -77,12 +92,12 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
   for (Eigen::Index t = 0; t < count; ++t) {
     const int c = taut_[At(t)];
     W.row(t) = per_tension.row(c);
-    W(t, t) -= point_.model().cable(c).compliance_m_N();
+    W(t, t) -= point_.model().actuator(c).compliance_m_N();
   }
   const linalg::SmallLu lu(W);
   constexpr double kAlike = 1e-12;  // rounding may leave a singular matrix its factor
   if (!(lu.ReciprocalCondition() >= kAlike))
-    return {StatusCode::kUnobservable, "two taut cables have linearly dependent effects"};
+    return {StatusCode::kUnobservable, "two actuators have linearly dependent effects"};
   for (Eigen::Index p = 0; p < length_m->cols(); ++p) {
     fem::QpVector wanted(count);
     for (Eigen::Index t = 0; t < count; ++t) {

@@ -22,10 +22,10 @@ struct NodalRow {
   void AddTo(Eigen::Ref<Eigen::VectorXd> column) const;
 };
 
-/// What the cables of an equilibrium are in the sensitivity equations (sensitivity_solver.hpp):
-/// rows over the reduced system for their lengths, and for their friction, by which K gains
-/// sum_i A_i B_i' with one rank for each turn i: B_i = dangle/dx, A_i = -T dforce/dangle.
-/// Buffers grow at first. For one thread.
+/// What the actuators of an equilibrium are in the sensitivity equations (sensitivity_solver.hpp):
+/// rows over the reduced system for their lengths (Actuator::Value), and for friction of cables, by
+/// which K gains sum_i A_i B_i' with one rank for each turn i: B_i = dangle/dx, A_i = -T
+/// dforce/dangle. Buffers grow at first. For one thread.
 class CableTerms {
  public:
   /// Must outlive it.
@@ -34,11 +34,11 @@ class CableTerms {
   /// At the point's present equilibrium.
   void Evaluate();
 
-  /// Those that keep the length that their actuators hold.
+  /// Those that keep the length that is commanded; chambers among them their volume.
   const std::vector<int>& taut() const { return taut_; }
   Eigen::Index TautCount() const { return ToIndex(taut_.size()); }
   Eigen::Index TurnCount() const { return ToIndex(angles_.size()); }
-  const std::vector<NodalRow>& lengths() const { return lengths_; }  ///< [cables] dlength/dx
+  const std::vector<NodalRow>& lengths() const { return lengths_; }  ///< [actuators] dlength/dx
   const std::vector<NodalRow>& angles() const { return angles_; }    ///< [turns] B
   /// Fills A [Size x turns].
   void FillTurnForces(Eigen::Ref<Eigen::MatrixXd> columns);
@@ -52,6 +52,7 @@ class CableTerms {
 
  private:
   bool Rubs(int cable) const;
+  void FillChamberRow(int actuator, NodalRow* row);
   void FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow* row) const;
 
   const EquilibriumPoint& point_;

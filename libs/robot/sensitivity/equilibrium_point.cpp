@@ -26,9 +26,9 @@ void EquilibriumPoint::EvaluateRestPaths() {
   }
 }
 
-void EquilibriumPoint::Set(const std::vector<CableCommand>& commands,
+void EquilibriumPoint::Set(const std::vector<ActuatorCommand>& commands,
                            const fem::StaticState& state) {
-  PALPATE_CHECK(static_cast<int>(commands.size()) == model_.CableCount(), commands.size());
+  PALPATE_CHECK(static_cast<int>(commands.size()) == model_.ActuatorCount(), commands.size());
   PALPATE_CHECK(state.x_m.size() == 3 * model_.elastic_body().NodeCount(), state.x_m.size());
   commands_ = commands;
   x_m_ = state.x_m;
@@ -43,15 +43,15 @@ void EquilibriumPoint::Set(const std::vector<CableCommand>& commands,
   }
 }
 
-size_t EquilibriumPoint::Index(int cable) const {
-  PALPATE_CHECK(cable >= 0 && cable < model_.CableCount(), cable);
-  return static_cast<size_t>(cable);
+size_t EquilibriumPoint::Index(int actuator) const {
+  PALPATE_CHECK(actuator >= 0 && actuator < model_.ActuatorCount(), actuator);
+  return static_cast<size_t>(actuator);
 }
 
-bool EquilibriumPoint::KeepsLength(int cable) const {
-  const double limit_N = model_.body().cables[At(cable)].max_tension_N;
-  return command(cable).kind == CableCommand::Kind::kDisplacement && tension_N(cable) > 0.0 &&
-         tension_N(cable) < limit_N;
+bool EquilibriumPoint::KeepsLength(int actuator) const {
+  const ActuatorTraits& limits = model_.traits(actuator);
+  return command(actuator).kind == ActuatorCommand::Kind::kDisplacement &&
+         tension_N(actuator) > limits.least_force_N && tension_N(actuator) < limits.most_force_N;
 }
 
 bool EquilibriumPoint::Holds(Eigen::Index node, Eigen::Index direction) const {
@@ -127,6 +127,30 @@ void EquilibriumPoint::PullPath(int cable, double tension_N, const Eigen::Matrix
   }
 }
 
+/// The gradient is a quadratic function of the positions, so that its central difference is exact.
+void EquilibriumPoint::MoveChamberWall(int actuator, const Eigen::VectorXd& motion_m,
+                                       ParameterColumn* column) const {
+  const Actuator& chamber = model_.actuator(actuator);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x_m_.size());
+  chamber.AddGradient(x_m_, 1.0, gradient);
+  column->length_m[actuator] += gradient.dot(motion_m);
+  const double half_N = 0.5 * tension_N(actuator);
+  if (half_N == 0.0) return;
+  chamber.AddGradient(x_m_ + motion_m, -half_N, column->distributed_force_N());
+  chamber.AddGradient(x_m_ - motion_m, half_N, column->distributed_force_N());
+}
+
+double EquilibriumPoint::RestLengthAlong(int actuator, const Eigen::VectorXd& mode_m) const {
+  if (actuator < model_.CableCount()) {
+    Eigen::Matrix3Xd motion_m;
+    PathMotion(actuator, mode_m, &motion_m);
+    return rest_path(actuator).LengthAlong(motion_m);
+  }
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(mode_m.size());
+  model_.actuator(actuator).AddGradient(model_.elastic_body().rest_m(), 1.0, gradient);
+  return gradient.dot(mode_m);
+}
+
 void EquilibriumPoint::MoveHeldNode(Eigen::Index node, const Eigen::Vector3d& motion_m,
                                     ParameterColumn* column) const {
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -143,14 +167,21 @@ void EquilibriumPoint::ApplyHeldMotion(ParameterColumn* column) const {
     PathMotion(c, motion_m, &path_motion_m);
     MovePath(c, path_motion_m, column);
   }
+  for (int c = model_.CableCount(); c < model_.ActuatorCount(); ++c) {
+    MoveChamberWall(c, motion_m, column);
+  }
 }
 
 void EquilibriumPoint::Complete(ParameterColumn* column) const {
   ApplyHeldMotion(column);
-  for (int c = 0; c < model_.CableCount(); ++c) {
+  for (int c = 0; c < model_.ActuatorCount(); ++c) {
     const double more_N = column->commanded_tension_N[c];
-    if (command(c).kind != CableCommand::Kind::kTension) PALPATE_CHECK(more_N == 0.0, c, more_N);
-    PullPath(c, more_N, path(c).force(), column);
+    if (command(c).kind != ActuatorCommand::Kind::kTension) PALPATE_CHECK(more_N == 0.0, c, more_N);
+    if (c < model_.CableCount()) {
+      PullPath(c, more_N, path(c).force(), column);
+    } else if (more_N != 0.0) {
+      model_.actuator(c).AddGradient(x_m_, -more_N, column->distributed_force_N());
+    }
   }
 }
 

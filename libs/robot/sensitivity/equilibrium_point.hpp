@@ -22,18 +22,20 @@ class EquilibriumPoint {
   explicit EquilibriumPoint(RobotModel& model);
 
   /// Moves to another equilibrium. `model`'s linearisation is at this state.
-  void Set(const std::vector<CableCommand>& commands, const fem::StaticState& state);
+  void Set(const std::vector<ActuatorCommand>& commands, const fem::StaticState& state);
 
   RobotModel& model() const { return model_; }
   const std::vector<fem::Material>& materials() const { return model_.elastic_body().materials(); }
   const Eigen::VectorXd& x_m() const { return x_m_; }  ///< [3n]
-  double tension_N(int cable) const { return tension_N_[cable]; }
-  /// It pulls, and its actuator holds its length: displacement is commanded, and the tension is
-  /// below the cable's limit. (At the limit the actuator yields: the tension stays.)
-  bool KeepsLength(int cable) const;
-  const CableCommand& command(int cable) const { return commands_[Index(cable)]; }
-  const CablePath& path(int cable) const { return paths_[Index(cable)]; }
-  const CablePath& rest_path(int cable) const { return rest_paths_[Index(cable)]; }
+  double tension_N(int actuator) const { return tension_N_[actuator]; }
+  /// It pulls, and holds its length: displacement is commanded, and the tension is between its
+  /// limits. (At the limit the actuator yields: the tension stays.)
+  bool KeepsLength(int actuator) const;
+  const ActuatorCommand& command(int actuator) const { return commands_[Index(actuator)]; }
+  const CablePath& path(int cable) const { return paths_.at(Index(cable)); }
+  const CablePath& rest_path(int cable) const { return rest_paths_.at(Index(cable)); }
+  /// How the value of an actuator at rest changes along a mode [3n] of the rest shape.
+  double RestLengthAlong(int actuator, const Eigen::VectorXd& mode_m) const;
   bool Holds(Eigen::Index node, Eigen::Index direction) const;
   /// [3n] in held directions the force that the body exerts on its base.
   const Eigen::VectorXd& force_on_base_N() const;
@@ -66,13 +68,16 @@ class EquilibriumPoint {
   void Complete(ParameterColumn* column) const;
 
  private:
-  size_t Index(int cable) const;
+  size_t Index(int actuator) const;
+  /// What a nodal motion [3n] of its wall does to a chamber.
+  void MoveChamberWall(int actuator, const Eigen::VectorXd& motion_m,
+                       ParameterColumn* column) const;
   void EvaluateRestPaths();
   void EvaluateLameForces() const;
   void ApplyHeldMotion(ParameterColumn* column) const;
 
   RobotModel& model_;
-  std::vector<CableCommand> commands_;
+  std::vector<ActuatorCommand> commands_;
   Eigen::VectorXd x_m_;
   Eigen::VectorXd tension_N_;
   std::vector<CablePath> paths_;

@@ -8,7 +8,7 @@
 
 namespace palpate::robot {
 
-Status EquilibriumSensitivity(RobotModel& model, const std::vector<CableCommand>& cables,
+Status EquilibriumSensitivity(RobotModel& model, const std::vector<ActuatorCommand>& cables,
                               const fem::StaticState& state,
                               const Eigen::MatrixXd& force_derivative_N, Eigen::MatrixXd* dx_dp) {
   std::vector<ParameterPtr> parameters;

@@ -17,7 +17,7 @@ namespace palpate::robot {
 /// control take no part. SensitivitySolver with NodalForce parameters, dense.
 /// Not ok where K has no factor at the state, or two taut cables are collinear (kUnobservable);
 /// `dx_dp` is then left empty.
-Status EquilibriumSensitivity(RobotModel& model, const std::vector<CableCommand>& cables,
+Status EquilibriumSensitivity(RobotModel& model, const std::vector<ActuatorCommand>& cables,
                               const fem::StaticState& state,
                               const Eigen::MatrixXd& force_derivative_N, Eigen::MatrixXd* dx_dp);
 

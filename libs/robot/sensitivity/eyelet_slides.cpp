@@ -11,7 +11,7 @@ namespace palpate::robot {
 
 namespace {
 
-using Kind = CableCommand::Kind;
+using Kind = ActuatorCommand::Kind;
 
 /// [eyelets of the cable x parameters] by how much the length from each to the cable's end grows.
 Eigen::MatrixXd LengthsBeyond(const Cable& cable, const Eigen::VectorXd& x_m,
@@ -51,8 +51,9 @@ Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets, const Robo
 }
 
 EyeletSlides SlidesAbout(const std::vector<RubbingEyelet>& eyelets,
-                         const std::vector<CableCommand>& commands, const fem::StaticState& state,
-                         const RobotModel& model, SensitivitySolver* solver) {
+                         const std::vector<ActuatorCommand>& commands,
+                         const fem::StaticState& state, const RobotModel& model,
+                         SensitivitySolver* solver) {
   std::vector<ParameterPtr> parameters;
   for (const RubbingEyelet& one : eyelets) {
     parameters.push_back(CableFrictionAt(one.cable, one.eyelet));

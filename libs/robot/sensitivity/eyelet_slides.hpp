@@ -37,7 +37,8 @@ struct EyeletSlides {
 /// Of the equilibrium `state`, which `solver`'s model has with `commands`; not known, where there
 /// are no derivatives.
 EyeletSlides SlidesAbout(const std::vector<RubbingEyelet>& eyelets,
-                         const std::vector<CableCommand>& commands, const fem::StaticState& state,
-                         const RobotModel& model, SensitivitySolver* solver);
+                         const std::vector<ActuatorCommand>& commands,
+                         const fem::StaticState& state, const RobotModel& model,
+                         SensitivitySolver* solver);
 
 }  // namespace palpate::robot

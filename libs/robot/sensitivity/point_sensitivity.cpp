@@ -20,10 +20,10 @@ PointSensitivity::PointSensitivity(RobotModel& model,
 
 void PointSensitivity::SetRows(std::vector<ObservationRow> rows) {
   observed_ = std::move(rows);
-  rows_ = model_.CableCount() + std::ssize(observed_);
+  rows_ = model_.ActuatorCount() + std::ssize(observed_);
 }
 
-Status PointSensitivity::Compute(const std::vector<CableCommand>& cables,
+Status PointSensitivity::Compute(const std::vector<ActuatorCommand>& cables,
                                  const fem::StaticState& state,
                                  std::span<const ParameterPtr> parameters, Factor factor) {
   Status status = TryCompute(cables, state, parameters, factor);
@@ -32,12 +32,12 @@ Status PointSensitivity::Compute(const std::vector<CableCommand>& cables,
 }
 
 void PointSensitivity::Clear() {
-  motion_m_.resize(rows_ - model_.CableCount(), 0);
-  length_m_.resize(model_.CableCount(), 0);
-  tension_N_.resize(model_.CableCount(), 0);
+  motion_m_.resize(rows_ - model_.ActuatorCount(), 0);
+  length_m_.resize(model_.ActuatorCount(), 0);
+  tension_N_.resize(model_.ActuatorCount(), 0);
 }
 
-Status PointSensitivity::TryCompute(const std::vector<CableCommand>& cables,
+Status PointSensitivity::TryCompute(const std::vector<ActuatorCommand>& cables,
                                     const fem::StaticState& state,
                                     std::span<const ParameterPtr> parameters, Factor factor) {
   if (Status status = FactorAt(state, factor, &model_.linearisation()); !status.ok()) return status;
@@ -92,7 +92,7 @@ Status PointSensitivity::CoupleFriction() {
 }
 
 void PointSensitivity::DescribeParameters(std::span<const ParameterPtr> parameters) {
-  const Eigen::Index cables = model_.CableCount();
+  const Eigen::Index cables = model_.ActuatorCount();
   const auto count = ToIndex(parameters.size());
   commanded_length_m_.resize(cables, count);
   length_m_.resize(cables, count);
@@ -136,12 +136,12 @@ void PointSensitivity::MoveWithBase(Eigen::Index parameter) {
 }
 
 Status PointSensitivity::PullTautCables() {
-  const Eigen::Index cables = model_.CableCount();
+  const Eigen::Index cables = model_.ActuatorCount();
   const Eigen::Index taut = cables_.TautCount();
   Eigen::MatrixXd per_tension(rows_, taut);
   for (Eigen::Index t = 0; t < taut; ++t) {
     nodal_.setZero();
-    model_.cable(cables_.taut()[At(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
+    model_.actuator(cables_.taut()[At(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
     per_tension.col(t) = per_force_m_N_ * nodal_;
   }
   Status status = cables_.HoldLengths(per_tension.topRows(cables), commanded_length_m_, &length_m_,

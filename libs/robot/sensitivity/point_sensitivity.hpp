@@ -36,7 +36,7 @@ class PointSensitivity {
   void SetRows(std::vector<ObservationRow> rows);
 
   /// As SensitivitySolver::Compute, with the same refusals.
-  Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+  Status Compute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                  std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
 
   int ParameterCount() const { return static_cast<int>(motion_m_.cols()); }
@@ -48,7 +48,7 @@ class PointSensitivity {
   const Eigen::MatrixXd& tension_N() const { return tension_N_; }
 
  private:
-  Status TryCompute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+  Status TryCompute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                     std::span<const ParameterPtr> parameters, Factor factor);
   Status SolveRows();
   void FillRows();

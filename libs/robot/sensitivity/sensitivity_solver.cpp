@@ -15,19 +15,19 @@ SensitivitySolver::SensitivitySolver(RobotModel& model)
       columns_(model.linearisation().Size(), 0),
       nodal_(model.elastic_body().rest_m().size()) {}
 
-Status SensitivitySolver::Compute(const std::vector<CableCommand>& cables,
+Status SensitivitySolver::Compute(const std::vector<ActuatorCommand>& cables,
                                   const fem::StaticState& state,
                                   std::span<const ParameterPtr> parameters, Factor factor) {
   Status status = TryCompute(cables, state, parameters, factor);
   if (!status.ok()) {
     columns_of_.clear();
-    length_m_.resize(model_.CableCount(), 0);
-    tension_N_.resize(model_.CableCount(), 0);
+    length_m_.resize(model_.ActuatorCount(), 0);
+    tension_N_.resize(model_.ActuatorCount(), 0);
   }
   return status;
 }
 
-Status SensitivitySolver::TryCompute(const std::vector<CableCommand>& cables,
+Status SensitivitySolver::TryCompute(const std::vector<ActuatorCommand>& cables,
                                      const fem::StaticState& state,
                                      std::span<const ParameterPtr> parameters, Factor factor) {
   if (Status status = FactorAt(state, factor, &model_.linearisation()); !status.ok()) return status;
@@ -47,7 +47,7 @@ void SensitivitySolver::DescribeParameters(std::span<const ParameterPtr> paramet
   loads_ = 0;
   for (size_t p = 0; p < parameters.size(); ++p) {
     ParameterColumn& column = columns_of_[p];
-    column.Reset(point_.x_m().size(), model_.CableCount());
+    column.Reset(point_.x_m().size(), model_.ActuatorCount());
     parameters[p]->Describe(point_, &column);
     point_.Complete(&column);
     load_of_[p] = column.HasForce() ? static_cast<int>(loads_++) : -1;
@@ -63,7 +63,7 @@ void SensitivitySolver::FillColumns() {
   }
   for (Eigen::Index t = 0; t < taut; ++t) {
     nodal_.setZero();
-    model_.cable(cables_.taut()[At(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
+    model_.actuator(cables_.taut()[At(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
     matrix.Reduce(nodal_, columns_.col(t));
   }
   for (size_t p = 0; p < columns_of_.size(); ++p) {
@@ -95,7 +95,7 @@ Status SensitivitySolver::CoupleFriction() {
 
 Status SensitivitySolver::EliminateTautCables() {
   const Eigen::Index taut = cables_.TautCount();
-  const Eigen::Index cables = model_.CableCount();
+  const Eigen::Index cables = model_.ActuatorCount();
   const Eigen::Index count = ParameterCount();
   commanded_length_m_.resize(cables, count);
   length_m_.resize(cables, count);

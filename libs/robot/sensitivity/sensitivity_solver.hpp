@@ -41,7 +41,7 @@ class SensitivitySolver {
   /// that `state` was solved with. Not ok where the state is inverted or not finite, K has no
   /// Cholesky factor (also where only the cables' held lengths make the balance stable), or two
   /// taut cables are collinear (kUnobservable); then there are no results: ParameterCount() is 0.
-  Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+  Status Compute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                  std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
 
   int ParameterCount() const { return static_cast<int>(columns_of_.size()); }
@@ -58,7 +58,7 @@ class SensitivitySolver {
   const Eigen::MatrixXd& tension_N() const { return tension_N_; }
 
  private:
-  Status TryCompute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+  Status TryCompute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                     std::span<const ParameterPtr> parameters, Factor factor);
   void DescribeParameters(std::span<const ParameterPtr> parameters);
   void FillColumns();

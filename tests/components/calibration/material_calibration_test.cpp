@@ -44,7 +44,7 @@ Eigen::VectorXd MarkersOf(const robot::RobotModel& model, const fem::StaticState
 
 /// What noise-free markers show of `model` as it is now.
 StaticObservation ObserveModel(robot::RobotModel& model,
-                               const std::vector<robot::CableCommand>& cables,
+                               const std::vector<robot::ActuatorCommand>& cables,
                                const std::vector<robot::DeadLoad>& loads) {
   StaticObservation observation;
   observation.name = "made_up";
@@ -127,7 +127,7 @@ class ReferenceShapes : public testing::TestWithParam<ReferenceShape> {};
 
 TEST_P(ReferenceShapes, OffsetsOfTheMarkersDoNotMatter) {
   const auto model = Build(test_support::QuickFourLegRobot());
-  const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.004}, {}, {}, {}};
+  const std::vector<robot::ActuatorCommand> cables = {{Kind::kDisplacement, 0.004}, {}, {}, {}};
   StaticObservation observation =
       ObserveModel(*model, cables, {LoadAt(*model, {0.0, 0.0, 0.125}, 0.008, {0.3, 0.0, -0.8})});
   observation.reference = GetParam();

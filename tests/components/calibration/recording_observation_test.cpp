@@ -91,7 +91,7 @@ TEST(ObserveRecording, TakesLoadsCablesAndTiltedGravity) {
   ASSERT_EQ(observation.loads.size(), 1U);
   EXPECT_EQ(observation.loads[0].force_N, Eigen::Vector3d(0.0, 0.0, -0.5));
   ASSERT_EQ(observation.cables.size(), 1U);
-  EXPECT_EQ(observation.cables[0].kind, robot::CableCommand::Kind::kDisplacement);
+  EXPECT_EQ(observation.cables[0].kind, robot::ActuatorCommand::Kind::kDisplacement);
   EXPECT_NEAR(observation.cables[0].value, 0.011, 1e-12);
   EXPECT_NEAR(observe(robot::CableInput::kTension).cables[0].value, 2.1, 1e-12);
   // R = Rx(90 deg); R' (0, 0, -g) = (0, -g, 0).

@@ -40,9 +40,9 @@ inline std::unique_ptr<robot::RobotModel> Build(const robot::RobotDescription& r
 }
 
 inline fem::StaticState SolveTensions(robot::RobotModel& model, const Eigen::VectorXd& tension_N) {
-  std::vector<robot::CableCommand> commands;
+  std::vector<robot::ActuatorCommand> commands;
   for (const double value : tension_N) {
-    commands.push_back({robot::CableCommand::Kind::kTension, value});
+    commands.push_back({robot::ActuatorCommand::Kind::kTension, value});
   }
   fem::StaticState state = model.RestState();
   const fem::StaticResult result = model.Solve(commands, {}, &state);

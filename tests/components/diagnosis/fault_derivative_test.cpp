@@ -12,8 +12,8 @@ namespace {
 experiment::Experiment WithATension(experiment::Experiment experiment) {
   constexpr double kPerMetre_N = 100.0;
   for (experiment::Recording& recording : experiment.recordings) {
-    experiment::CableColumn& last = recording.actuation->columns.back();
-    last.quantity = experiment::CableQuantity::kTension;
+    experiment::ActuatorColumn& last = recording.actuation->columns.back();
+    last.quantity = experiment::ActuatorQuantity::kTension;
     for (std::optional<double>& sample : last.samples) sample = kPerMetre_N * sample.value();
   }
   return experiment;

@@ -98,7 +98,7 @@ TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
       NodalForces_N(obstacle, solved.middle.obstacle_force_N, x_m.size());
   Eigen::VectorXd nodal_N = solved.middle.state.loads.external_force_N + obstacle_N;
   robot::RobotModel& model = solver.model();
-  for (int c = 0; c < model.CableCount(); ++c) {
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     model.cable(c).AddGradient(x_m, -solved.middle.state.multipliers_N[c], nodal_N);
   }
   Eigen::VectorXd elastic_N = Eigen::VectorXd::Zero(x_m.size());

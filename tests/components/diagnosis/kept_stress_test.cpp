@@ -53,7 +53,7 @@ TEST_F(KeptStressLaw, ItsForcesAreTheSlopeOfItsEnergy) {
 TEST_F(KeptStressLaw, ItsCurvatureIsTheSlopeOfItsForces) {
   fem::Linearisation& linearisation = model_.linearisation();
   const auto tangent_on = [&](double multiplier) {
-    Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(model_.CableCount() + 1);
+    Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(model_.ActuatorCount() + 1);
     multipliers.tail<1>().setConstant(multiplier);
     EXPECT_TRUE(linearisation.Update(x_m_, multipliers, 0.0 * x_m_).ok());
     Eigen::VectorXd reduced(linearisation.Size());

@@ -83,7 +83,7 @@ TEST_F(PlanFiles, AreWhatTheVirtualBenchDoes) {
       const Eigen::VectorXd told_m = bench.commands.At(t_s);
       for (std::size_t c = 0; c < bench.commands.cables.size(); ++c) {
         const auto* column = planned.actuation->Find(bench.commands.cables[c],
-                                                     experiment::CableQuantity::kDisplacement);
+                                                     experiment::ActuatorQuantity::kDisplacement);
         ASSERT_NE(column, nullptr);
         EXPECT_NEAR(told_m[static_cast<Eigen::Index>(c)], planned.actuation->ValueAt(*column, t_s),
                     1e-12);
@@ -106,8 +106,8 @@ TEST_F(PlanFiles, OfAnotherPlanTakeThePlaceOfThoseBefore) {
     if (one.weight) weight = one;
     if (!one.weight) tension = one;
   }
-  for (experiment::CableColumn& column : tension.recording.actuation->columns) {
-    column.quantity = experiment::CableQuantity::kTension;
+  for (experiment::ActuatorColumn& column : tension.recording.actuation->columns) {
+    column.quantity = experiment::ActuatorQuantity::kTension;
   }
   const fs::path plan = folder_ / "plan";
   WritePlan(Plan(weight), plan);

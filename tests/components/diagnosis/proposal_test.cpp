@@ -18,7 +18,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-using experiment::CableQuantity;
+using experiment::ActuatorQuantity;
 using experiment::RecordingKind;
 
 constexpr double kLargest_m = 0.007;  ///< of SmallExperiment
@@ -56,8 +56,8 @@ TEST(BenchProposals, BeginAndEndAtZeroAndGoAQuarterFartherAtMost) {
     EXPECT_EQ(actuation.t_s.back(), proposal.duration_s);
     EXPECT_TRUE(std::is_sorted(actuation.t_s.begin(), actuation.t_s.end(), std::less_equal<>()));
     ASSERT_EQ(actuation.columns.size(), body.cables.size());
-    for (const experiment::CableColumn& column : actuation.columns) {
-      EXPECT_EQ(column.quantity, CableQuantity::kDisplacement);
+    for (const experiment::ActuatorColumn& column : actuation.columns) {
+      EXPECT_EQ(column.quantity, ActuatorQuantity::kDisplacement);
       EXPECT_EQ(column.samples.front(), 0.0);
       EXPECT_EQ(column.samples.back(), 0.0);
       for (const auto& sample : column.samples) most_m = std::max(most_m, std::abs(*sample));
@@ -73,7 +73,7 @@ TEST(BenchProposals, DriveCablesAsTheDataDid) {
   for (experiment::Recording& recording : experiment.recordings) {
     auto& columns = recording.actuation->columns;
     columns.erase(columns.begin());
-    columns.back().quantity = CableQuantity::kTension;
+    columns.back().quantity = ActuatorQuantity::kTension;
     for (auto& sample : columns.back().samples) sample = 100.0 * *sample;
   }
   for (const Proposal& proposal : Proposals(body, experiment)) {

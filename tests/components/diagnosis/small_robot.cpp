@@ -98,7 +98,7 @@ experiment::Recording MakeRecording(const std::string& name, const robot::RobotB
   experiment::Actuation& actuation = recording.actuation.emplace();
   for (std::size_t c = 0; c < knots.front().command.size(); ++c) {
     actuation.columns.push_back(
-        {body.cables[c].name, experiment::CableQuantity::kDisplacement, {}, {}});
+        {body.cables[c].name, experiment::ActuatorQuantity::kDisplacement, {}, {}});
   }
   for (const Knot& knot : knots) {
     actuation.t_s.push_back(knot.t_s);

@@ -24,7 +24,7 @@ class FrameBudget : public testing::Test {
     return MarkerForceEstimator(*model_, config_, 0.0, [this] { return now_s_ += tick_s_; });
   }
   MarkerFrame FrameAt(double cable_m) {
-    const std::vector<robot::CableCommand> cables(4, {Kind::kDisplacement, cable_m});
+    const std::vector<robot::ActuatorCommand> cables(4, {Kind::kDisplacement, cable_m});
     return FrameUnder(*model_, cables, {LoadAt(*model_, kHub, 0.008, kTipForce_N)});
   }
 

@@ -34,7 +34,7 @@ class HiddenScene {
   HiddenScene(const robot::RobotDescription& robot, const Eigen::Vector3d& eye_m,
               const Eigen::Vector3d& looks_at_m)
       : model{robot::BuildRobotBody(robot)},
-        commands(static_cast<size_t>(model.CableCount())),
+        commands(static_cast<size_t>(model.ActuatorCount())),
         free{model.RestState()},
         search{std::make_unique<HiddenSearch>(model, ShapeConfig{.contact_radius_m = kRadius_m})},
         eye_m_{eye_m},
@@ -112,7 +112,7 @@ class HiddenScene {
   }
 
   robot::RobotModel model;
-  std::vector<robot::CableCommand> commands;
+  std::vector<robot::ActuatorCommand> commands;
   fem::StaticState free;
   std::vector<robot::ObservationRow> rows;
   ObservationJacobian responses;          ///< of `rows`, about what Respond or MoveTo came to

@@ -19,7 +19,7 @@ constexpr char kHubSite[] = "hub: 0, 0, 0.125, 0.008";
 /// How the four cables of four_leg are driven.
 struct Drive {
   std::string name;
-  std::vector<robot::CableCommand> cables;
+  std::vector<robot::ActuatorCommand> cables;
 };
 
 class DrivenBody : public testing::TestWithParam<Drive> {};
@@ -43,9 +43,9 @@ TEST_P(DrivenBody, ReportsTheCablesAsTheyAre) {
   const fem::StaticState truth = SolveTruth(*model, GetParam().cables, {load});
   MarkerForceEstimator estimator(*model, WithContacts({kHubSite}));
   const ForceEstimate& estimate = estimator.Update(FrameOf(*model, truth, GetParam().cables));
-  for (int c = 0; c < model->CableCount(); ++c) {
-    const robot::CableState expected = model->StateOfCable(c, truth);
-    const robot::CableState& found = estimate.cables[static_cast<size_t>(c)];
+  for (int c = 0; c < model->ActuatorCount(); ++c) {
+    const robot::ActuatorState expected = model->StateOfActuator(c, truth);
+    const robot::ActuatorState& found = estimate.cables[static_cast<size_t>(c)];
     EXPECT_NEAR(found.tension_N, expected.tension_N, 1e-6) << c;
     EXPECT_NEAR(found.displacement_m, expected.displacement_m, 1e-9) << c;
     EXPECT_NEAR(found.length_m, expected.length_m, 1e-9) << c;
@@ -134,11 +134,11 @@ TEST(MarkerForceEstimator, FitsOnlyTheSizeOfAForceWhoseDirectionIsGiven) {
 
 TEST(MarkerForceEstimator, ForgetsTheFrameBefore) {
   const auto model = Build(QuickFourLegRobot());
-  const std::vector<robot::CableCommand> first_cables(4, {Kind::kDisplacement, 0.002});
-  const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.006},
-                                                   {Kind::kDisplacement, -0.01},
-                                                   {Kind::kTension, 1.0},
-                                                   {Kind::kDisplacement, 0.003}};
+  const std::vector<robot::ActuatorCommand> first_cables(4, {Kind::kDisplacement, 0.002});
+  const std::vector<robot::ActuatorCommand> cables = {{Kind::kDisplacement, 0.006},
+                                                      {Kind::kDisplacement, -0.01},
+                                                      {Kind::kTension, 1.0},
+                                                      {Kind::kDisplacement, 0.003}};
   const MarkerFrame first =
       FrameUnder(*model, first_cables, {LoadAt(*model, kKnownHub, 0.008, {0.5, 0.4, -1.5})});
   MarkerFrame frame =

@@ -48,7 +48,7 @@ class MarkerTareTest : public testing::Test {
     EXPECT_LT(estimate.residual_rms_m, 1e-9);
   }
 
-  std::vector<robot::CableCommand> cables_{4, {Kind::kDisplacement, 0.004}};
+  std::vector<robot::ActuatorCommand> cables_{4, {Kind::kDisplacement, 0.004}};
   std::unique_ptr<robot::RobotModel> model_;
   MarkerForceEstimator estimator_;
   std::vector<Eigen::Vector3d> offsets_m_;

@@ -155,7 +155,7 @@ TEST(Observability, WithoutAnyMarkerNothingIsEstimated) {
 
 TEST(Observability, NanCommandIsRefused) {
   const auto model = Build(QuickFourLegRobot());
-  std::vector<robot::CableCommand> cables(4, {Kind::kTension, 1.0});
+  std::vector<robot::ActuatorCommand> cables(4, {Kind::kTension, 1.0});
   MarkerFrame frame = FrameUnder(*model, cables, {});
   frame.cables[2].value = kNaN;
   MarkerForceEstimator estimator(*model, WithContacts({"hub: 0, 0, 0.125, 0.008"}));
@@ -168,7 +168,7 @@ TEST(Observability, NanCommandIsRefused) {
 
 TEST(Observability, CableBeyondItsLimitIsRefusedInAnyFrame) {
   const auto model = Build(QuickFourLegRobot());
-  const std::vector<robot::CableCommand> cables(4, {Kind::kTension, 1.0});
+  const std::vector<robot::ActuatorCommand> cables(4, {Kind::kTension, 1.0});
   const MarkerFrame good = FrameUnder(*model, cables, {});
   MarkerFrame bad = good;
   bad.cables[1].value = 20.5;  // max_tension_N: 20

@@ -43,7 +43,7 @@ void GoTo(robot::RobotModel& model, const fem::StaticState& state) {
 /// Pulls two cables, of which one goes slack, and compares with equilibria under small forces.
 TEST(ObservationJacobian, AreTheDerivativesOfEquilibriaWithCablesHeld) {
   const auto model = Build(QuickFourLegRobot());
-  const std::vector<robot::CableCommand> cables = {
+  const std::vector<robot::ActuatorCommand> cables = {
       {Kind::kDisplacement, 0.008}, {Kind::kTension, 1.0}, {Kind::kDisplacement, -0.02}, {}};
   const fem::StaticState state = SolveTruth(*model, cables, {});
   ASSERT_GT(state.multipliers_N[0], 0.1);
@@ -71,7 +71,7 @@ TEST(ObservationJacobian, AreTheDerivativesOfEquilibriaWithCablesHeld) {
 
 TEST(ObservationJacobian, OfRowsThatJoinAreAsIfTheyHadBeenThere) {
   const auto model = Build(QuickFourLegRobot());
-  const std::vector<robot::CableCommand> cables(4, {Kind::kDisplacement, 0.004});
+  const std::vector<robot::ActuatorCommand> cables(4, {Kind::kDisplacement, 0.004});
   const fem::StaticState state = SolveTruth(*model, cables, {});
   GoTo(*model, state);
   const std::vector<robot::ObservationRow> rows = MarkerRows(*model);

@@ -15,7 +15,7 @@ constexpr double kPush_N = 0.02;
 /// of a cable that is about to become slack.
 Status FitWhereACablePushes(double most_push_N) {
   const auto model = Build(QuickFourLegRobot());
-  const std::vector<robot::CableCommand> cables(4, {Kind::kDisplacement, 0.002});
+  const std::vector<robot::ActuatorCommand> cables(4, {Kind::kDisplacement, 0.002});
   const fem::StaticState balance = SolveTruth(*model, cables, {});
   Config config;
   config.frame_tolerance = 0.1;
@@ -32,7 +32,7 @@ Status FitWhereACablePushes(double most_push_N) {
   ModelState state{true, true, balance.x_m, balance.multipliers_N, Eigen::VectorXd()};
   EXPECT_TRUE(fitter.Fit(targets, cables, &state).status.ok());
   // The first cable at its present length, with no more than a push in it.
-  std::vector<robot::CableCommand> slack = cables;
+  std::vector<robot::ActuatorCommand> slack = cables;
   slack[0] = {Kind::kTension, 0.0};
   EXPECT_TRUE(fitter.Fit(targets, slack, &state).status.ok());
   state.lambda_a_N[0] = -kPush_N;

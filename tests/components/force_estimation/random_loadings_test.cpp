@@ -92,7 +92,7 @@ void FitLoading(robot::RobotModel& model, const RandomLoading& loading,
 void FitLoadings(const std::string& name, const robot::RobotDescription& robot, int by_default) {
   robot::RobotModel model(test_support::WithFeaturePointsAsMarkers(robot::BuildRobotBody(robot)));
   fem::StaticState at_rest = model.RestState();
-  const std::vector<robot::CableCommand> slack(static_cast<size_t>(model.CableCount()));
+  const std::vector<robot::ActuatorCommand> slack(static_cast<size_t>(model.ActuatorCount()));
   ASSERT_TRUE(model.Solve(slack, {}, &at_rest).status.ok());
   Config config;
   config.frame_tolerance = 1e-8;

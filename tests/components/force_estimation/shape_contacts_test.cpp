@@ -91,7 +91,7 @@ class Contacts : public testing::Test {
   HiddenContacts hidden_;
   ContactReport report_;
   DepthBias bias_;
-  std::vector<robot::CableCommand> cables_;
+  std::vector<robot::ActuatorCommand> cables_;
   double t_s_ = 0.0;
   float noise_;
   std::mt19937 random_;

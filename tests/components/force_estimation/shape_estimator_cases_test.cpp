@@ -84,7 +84,7 @@ class ShapeEstimatorCases : public testing::Test {
       {0.0, 0.0598, 0.0858}, {0.0, -0.0598, 0.0858}, {0.0598, 0.0, 0.0858}};
   ShapeScene scene_{51};
   ShapeConfig shape_;
-  std::vector<robot::CableCommand> cables_{4, {.kind = Kind::kDisplacement, .value = 0.0}};
+  std::vector<robot::ActuatorCommand> cables_{4, {.kind = Kind::kDisplacement, .value = 0.0}};
   fem::StaticState state_;
   std::vector<SeenContact> seen_;
   double t_s_ = 0.0;

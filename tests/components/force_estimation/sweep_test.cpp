@@ -50,9 +50,9 @@ class Sweep {
     const fem::StaticResult result = model_.Solve(Cables(frame), loads, &truth_);
     ASSERT_TRUE(result.status.ok()) << result.status.message();
   }
-  std::vector<robot::CableCommand> Cables(int frame) const {
-    std::vector<robot::CableCommand> cables(static_cast<size_t>(model_.CableCount()),
-                                            {Kind::kDisplacement, 0.0});
+  std::vector<robot::ActuatorCommand> Cables(int frame) const {
+    std::vector<robot::ActuatorCommand> cables(static_cast<size_t>(model_.ActuatorCount()),
+                                               {Kind::kDisplacement, 0.0});
     cables[0].value = 1e-3 * (frame <= 20 ? frame : 40 - frame);
     return cables;
   }

@@ -22,7 +22,7 @@ namespace palpate::force_estimation {
 /// Robots of config/robots with linear elements (quick to solve) and as many markers as a test
 /// needs, and truths that RobotModel::Solve makes for them.
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 using test_support::QuickFourLegRobot;
 
 /// The clamped beam with twelve markers on top and sides, and without a cable: 1 N at the tip moves
@@ -53,7 +53,7 @@ inline robot::DeadLoad LoadAt(const robot::RobotModel& model, const Eigen::Vecto
 }
 
 inline fem::StaticState SolveTruth(robot::RobotModel& model,
-                                   const std::vector<robot::CableCommand>& cables,
+                                   const std::vector<robot::ActuatorCommand>& cables,
                                    const std::vector<robot::DeadLoad>& loads) {
   fem::StaticState state = model.RestState();
   const fem::StaticResult result = model.Solve(cables, loads, &state);
@@ -63,7 +63,8 @@ inline fem::StaticState SolveTruth(robot::RobotModel& model,
 
 /// All markers where the state has them, without noise.
 inline MarkerFrame FrameOf(const robot::RobotModel& model, const fem::StaticState& state,
-                           const std::vector<robot::CableCommand>& cables, double sigma_m = 1e-4) {
+                           const std::vector<robot::ActuatorCommand>& cables,
+                           double sigma_m = 1e-4) {
   MarkerFrame frame;
   for (const robot::BodyMarker& marker : model.body().markers) {
     frame.markers.push_back({.valid = true,
@@ -75,7 +76,7 @@ inline MarkerFrame FrameOf(const robot::RobotModel& model, const fem::StaticStat
 }
 
 inline MarkerFrame FrameUnder(robot::RobotModel& model,
-                              const std::vector<robot::CableCommand>& cables,
+                              const std::vector<robot::ActuatorCommand>& cables,
                               const std::vector<robot::DeadLoad>& loads) {
   return FrameOf(model, SolveTruth(model, cables, loads), cables);
 }

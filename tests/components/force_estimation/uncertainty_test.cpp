@@ -214,10 +214,10 @@ Eigen::Vector3d ForceWithModulus(robot::RobotModel& model, const MarkerFrame& fr
 
 TEST(ForceUncertainty, ModulusErrorWidensTheIntervalByTheForcesDerivative) {
   const auto model = Build(QuickFourLegRobot());
-  const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.006},
-                                                   {Kind::kDisplacement, -0.02},
-                                                   {Kind::kTension, 1.0},
-                                                   {Kind::kDisplacement, 0.004}};
+  const std::vector<robot::ActuatorCommand> cables = {{Kind::kDisplacement, 0.006},
+                                                      {Kind::kDisplacement, -0.02},
+                                                      {Kind::kTension, 1.0},
+                                                      {Kind::kDisplacement, 0.004}};
   const auto load = LoadAt(*model, {0.0, 0.0, 0.125}, 0.008, {0.2, -0.3, -0.8});
   const MarkerFrame frame = FrameUnder(*model, cables, {load});
   constexpr double kStep = 1e-4;

@@ -175,7 +175,8 @@ TEST(RobotScene, ShowsBodyGhostClampCableAndForces) {
   const TestFolder folder;
   const auto model = LoadRobot(WriteBarRobot(folder));
   fem::StaticState state = model->RestState();
-  ASSERT_TRUE(model->Solve({{robot::CableCommand::Kind::kTension, 0.3}}, {}, &state).status.ok());
+  ASSERT_TRUE(
+      model->Solve({{robot::ActuatorCommand::Kind::kTension, 0.3}}, {}, &state).status.ok());
   view::Scene scene = MakeRobotScene(*model, state.x_m);
   EXPECT_EQ(scene.surfaces.size(), 1U);
   EXPECT_EQ(scene.ghosts.size(), 1U);

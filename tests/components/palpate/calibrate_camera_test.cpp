@@ -48,7 +48,7 @@ class CalibrateCamera : public testing::Test {
   void Record(double commanded_m) const {
     const auto model = LoadRobot(robot_, {});
     fem::StaticState state = model->RestState();
-    using Kind = robot::CableCommand::Kind;
+    using Kind = robot::ActuatorCommand::Kind;
     const auto result = model->Solve({{Kind::kDisplacement, commanded_m + kOffset_m}}, {}, &state);
     ASSERT_TRUE(result.status.ok()) << result.status.message();
     const std::string name =

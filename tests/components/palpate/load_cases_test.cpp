@@ -12,13 +12,15 @@
 namespace palpate::command {
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 using robot::CableInput;
 
 LoadCases Read(const std::string& csv, const std::vector<std::string>& cables,
                CableInput preferred = CableInput::kDisplacement) {
   const TestFolder folder;
-  return MakeLoadCases(ReadActuationRows(folder.Write("a.csv", csv)), {}, cables, preferred);
+  std::vector<robot::ActuatorTraits> actuators;
+  for (const std::string& cable : cables) actuators.push_back({.name = cable});
+  return MakeLoadCases(ReadActuationRows(folder.Write("a.csv", csv)), {}, actuators, preferred);
 }
 
 TEST(LoadCases, MakesARowOfEachLineAndInterpolatesEmptyFieldsInTime) {

@@ -152,7 +152,7 @@ TEST_F(ShapeReplayTest, TheFirstImageOfEachRecordingIsExpectedInThePostureOfItsC
   experiment::Actuation actuation;
   actuation.t_s = {1.0};
   actuation.columns.push_back({.cable = "top",
-                               .quantity = experiment::CableQuantity::kDisplacement,
+                               .quantity = experiment::ActuatorQuantity::kDisplacement,
                                .samples = {0.002},
                                .where = {}});
   pulled.actuation = actuation;
@@ -162,8 +162,8 @@ TEST_F(ShapeReplayTest, TheFirstImageOfEachRecordingIsExpectedInThePostureOfItsC
   ASSERT_TRUE(fake_.predictions[0] && fake_.predictions[1]);
   for (const double displacement_m : {0.0, 0.002}) {
     fem::StaticState state = model_->RestState();
-    const auto kind = displacement_m > 0.0 ? robot::CableCommand::Kind::kDisplacement
-                                           : robot::CableCommand::Kind::kNone;
+    const auto kind = displacement_m > 0.0 ? robot::ActuatorCommand::Kind::kDisplacement
+                                           : robot::ActuatorCommand::Kind::kNone;
     ASSERT_TRUE(model_->Solve({{.kind = kind, .value = displacement_m}}, {}, &state).status.ok());
     const auto& seen = *fake_.predictions[displacement_m > 0.0 ? 1 : 0];
     EXPECT_TRUE(seen.vertices_m.isApprox(Surface(state.x_m).vertices_m, 1e-9)) << displacement_m;
@@ -232,7 +232,7 @@ TEST_F(ShapeReplayTest, CableInputsAreThoseOfTheFramesTime) {
   experiment::Actuation actuation;
   actuation.t_s = {0.9, 1.1};
   actuation.columns.push_back({.cable = "top",
-                               .quantity = experiment::CableQuantity::kDisplacement,
+                               .quantity = experiment::ActuatorQuantity::kDisplacement,
                                .samples = {0.0, 0.004},
                                .where = {}});
   recording.actuation = actuation;
@@ -240,7 +240,7 @@ TEST_F(ShapeReplayTest, CableInputsAreThoseOfTheFramesTime) {
   ASSERT_THAT(fake_.frames, SizeIs(2));
   EXPECT_DOUBLE_EQ(fake_.frames[0].t_s, 1.0);
   EXPECT_EQ(fake_.stamps_ns[1], 1100000000);
-  EXPECT_EQ(fake_.frames[0].cables[0].kind, robot::CableCommand::Kind::kDisplacement);
+  EXPECT_EQ(fake_.frames[0].cables[0].kind, robot::ActuatorCommand::Kind::kDisplacement);
   EXPECT_NEAR(fake_.frames[0].cables[0].value, 0.002, 1e-12);
   EXPECT_NEAR(fake_.frames[1].cables[0].value, 0.004, 1e-12);
 }

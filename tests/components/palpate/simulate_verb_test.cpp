@@ -45,8 +45,8 @@ TEST_F(SimulateTest, WritesWhatTheExperimentReaderReads) {
 TEST_F(SimulateTest, ActuationIsWhatTheDrivesSay) {
   ASSERT_EQ(Run(), 0);
   const experiment::Actuation actuation = *Read().recordings[1].actuation;
-  const auto* displacement = actuation.Find("top", experiment::CableQuantity::kDisplacement);
-  const auto* tension = actuation.Find("top", experiment::CableQuantity::kTension);
+  const auto* displacement = actuation.Find("top", experiment::ActuatorQuantity::kDisplacement);
+  const auto* tension = actuation.Find("top", experiment::ActuatorQuantity::kTension);
   ASSERT_TRUE(displacement && tension);
   // The ten of the markers, and those at 0.25 s (weight) and 0.75 s (the command's bend); the end
   // belongs to the rest.

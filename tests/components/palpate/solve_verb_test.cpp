@@ -258,7 +258,7 @@ TEST_F(SolveVerb, TellsTheWatcherOfEachRowAndLeavesOffWhereItGivesUp) {
   std::vector<LoadCase> rows(3);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].t_s = static_cast<double>(i);
-    rows[i].cables = {{robot::CableCommand::Kind::kTension, 0.1 * static_cast<double>(i)}};
+    rows[i].cables = {{robot::ActuatorCommand::Kind::kTension, 0.1 * static_cast<double>(i)}};
   }
   std::vector<int> taken;
   std::vector<int> watched;

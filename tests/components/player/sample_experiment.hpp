@@ -10,7 +10,7 @@ namespace palpate::player {
 /// Two recordings with two markers at 10 Hz, seen from the robot frame. "a" has cables: north by
 /// displacement, south by tension, rows at 0 and 0.25 s; its first two frames are a reference.
 inline experiment::Experiment SampleExperiment() {
-  using experiment::CableQuantity;
+  using experiment::ActuatorQuantity;
   experiment::Recording a;
   a.name = "a";
   a.markers.emplace();
@@ -22,8 +22,8 @@ inline experiment::Experiment SampleExperiment() {
   a.markers->frames[2].positions_m[1].reset();
   a.actuation.emplace();
   a.actuation->t_s = {0.0, 0.25};
-  a.actuation->columns = {{"north", CableQuantity::kDisplacement, {0.0, 0.010}, {}},
-                          {"south", CableQuantity::kTension, {2.0, 2.0}, {}}};
+  a.actuation->columns = {{"north", ActuatorQuantity::kDisplacement, {0.0, 0.010}, {}},
+                          {"south", ActuatorQuantity::kTension, {2.0, 2.0}, {}}};
   a.reference = experiment::Reference{{0.0, 0.15}, experiment::ReferenceShape::kEquilibrium};
 
   experiment::Recording b = a;

@@ -28,11 +28,11 @@ std::unique_ptr<VirtualRobot> Pulled(const robot::RobotDescription& description,
 TEST(Cables, WithoutEffectsAreInTheBalanceThatTheStaticSolverFinds) {
   robot::RobotModel model(robot::BuildRobotBody(LinearFourLegRobot()));
   fem::StaticState state = model.RestState();
-  using Kind = robot::CableCommand::Kind;
-  const std::vector<robot::CableCommand> commands = {{Kind::kDisplacement, 0.008},
-                                                     {Kind::kDisplacement, 0.0},
-                                                     {Kind::kDisplacement, 0.004},
-                                                     {Kind::kNone, 0.0}};
+  using Kind = robot::ActuatorCommand::Kind;
+  const std::vector<robot::ActuatorCommand> commands = {{Kind::kDisplacement, 0.008},
+                                                        {Kind::kDisplacement, 0.0},
+                                                        {Kind::kDisplacement, 0.004},
+                                                        {Kind::kNone, 0.0}};
   ASSERT_TRUE(model.Solve(commands, {}, &state).status.ok());
   const auto robot = Pulled(LinearFourLegRobot(), {0.008, 0.0, 0.004, kNotDriven});
   EXPECT_LE((robot->positions_m() - state.x_m).cwiseAbs().maxCoeff(), 1e-6);

@@ -23,10 +23,10 @@ TEST(Actuation, MovesLinearlyBetweenRowsAndHoldsOutside) {
   const TestFolder folder;
   const Actuation actuation = ReadActuation(
       folder.Write("actuation.csv", "t_s,north.displacement_m,east.tension_N\n0,0,1\n2,0.01,3\n"));
-  const CableColumn* north = actuation.Find("north", CableQuantity::kDisplacement);
-  const CableColumn* east = actuation.Find("east", CableQuantity::kTension);
+  const ActuatorColumn* north = actuation.Find("north", ActuatorQuantity::kDisplacement);
+  const ActuatorColumn* east = actuation.Find("east", ActuatorQuantity::kTension);
   ASSERT_TRUE(north != nullptr && east != nullptr);
-  EXPECT_EQ(actuation.Find("north", CableQuantity::kTension), nullptr);
+  EXPECT_EQ(actuation.Find("north", ActuatorQuantity::kTension), nullptr);
   EXPECT_DOUBLE_EQ(actuation.ValueAt(*north, 0.5), 0.0025);
   EXPECT_DOUBLE_EQ(actuation.ValueAt(*east, 1.5), 2.5);
   EXPECT_DOUBLE_EQ(actuation.ValueAt(*north, 2.0), 0.01);
@@ -38,7 +38,7 @@ TEST(Actuation, BridgesAMissingSampleFromItsNeighboursAndNeverReadsItAsZero) {
   const TestFolder folder;
   const Actuation actuation = ReadActuation(
       folder.Write("actuation.csv", "t_s,a.displacement_m\n0,\n1,0.010\n2,\n3,\n4,0.040\n5,\n"));
-  const CableColumn& column = actuation.columns.at(0);
+  const ActuatorColumn& column = actuation.columns.at(0);
   EXPECT_FALSE(column.samples.at(2).has_value());
   EXPECT_DOUBLE_EQ(actuation.ValueAt(column, 2.0), 0.020);
   EXPECT_DOUBLE_EQ(actuation.ValueAt(column, 3.5), 0.035);
@@ -84,8 +84,8 @@ TEST(Actuation, TakesAColumnWithoutAnyValueForACableThatWasNotDriven) {
   const TestFolder folder;
   const Actuation actuation =
       ReadActuation(folder.Write("actuation.csv", "t_s,a.tension_N,b.tension_N\n0,,1\n1,,1\n"));
-  EXPECT_EQ(actuation.Find("a", CableQuantity::kTension), nullptr);
-  EXPECT_NE(actuation.Find("b", CableQuantity::kTension), nullptr);
+  EXPECT_EQ(actuation.Find("a", ActuatorQuantity::kTension), nullptr);
+  EXPECT_NE(actuation.Find("b", ActuatorQuantity::kTension), nullptr);
 }
 
 TEST(Actuation, RefusesWhatIsNoFiniteNumber) {

@@ -243,13 +243,13 @@ TEST(Experiment, ChecksMarkerAndCableNamesAgainstTheRobot) {
   WriteWhole(folder);
   const Recording b = ReadRecording(folder.path() / "exp/recordings/b", app::LoadYaml);
   EXPECT_NO_THROW(CheckMarkers(b, {"z", "a"}));
-  EXPECT_NO_THROW(CheckCables(b, {"north"}));
+  EXPECT_NO_THROW(CheckActuators(b, {"north"}, {}));
   EXPECT_THAT(MessageOf([&] {
                 CheckMarkers(b, {"tip_1", "tip_2"});
               }),
               AllOf(HasSubstr("markers.csv:2:3"), HasSubstr("no marker 'a'"), HasSubstr("tip_2")));
   EXPECT_THAT(MessageOf([&] {
-                CheckCables(b, {"noth", "east"});
+                CheckActuators(b, {"noth", "east"}, {});
               }),
               AllOf(HasSubstr("actuation.csv:1:5"), HasSubstr("did you mean 'noth'")));
 }

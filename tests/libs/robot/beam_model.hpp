@@ -26,10 +26,12 @@ class BeamModelTest : public testing::Test {
                                         settings);
   }
 
-  static CableCommand Displace(double displacement_m) {
-    return {CableCommand::Kind::kDisplacement, displacement_m};
+  static ActuatorCommand Displace(double displacement_m) {
+    return {ActuatorCommand::Kind::kDisplacement, displacement_m};
   }
-  static CableCommand Pull(double tension_N) { return {CableCommand::Kind::kTension, tension_N}; }
+  static ActuatorCommand Pull(double tension_N) {
+    return {ActuatorCommand::Kind::kTension, tension_N};
+  }
 
   TestFolder folder_;
 };

@@ -33,7 +33,7 @@ class CalibratedGeometryTest : public CalibrationFileFixture {
     return calibration;
   }
   const Eigen::Vector3d kEyeletMoved_m{-1e-3, 0.5e-3, 2e-3};
-  std::string Cable() const { return model_->CableNames().front(); }
+  std::string Cable() const { return model_->ActuatorNames().front(); }
 
   RobotBody Scaled() const {
     RobotBody body = model_->body();
@@ -86,16 +86,16 @@ TEST_F(CalibratedGeometryTest, ARobotOfThatSizeIsTheModelEnlarged) {
   model_->SetGravity(kScale * large.gravity_m_s2());
   const double tension_N = 0.5;
   fem::StaticState small_state = model_->RestState(), large_state = large.RestState();
-  std::vector<CableCommand> commands(static_cast<std::size_t>(model_->CableCount()));
-  commands[0] = {CableCommand::Kind::kTension, tension_N};
+  std::vector<ActuatorCommand> commands(static_cast<std::size_t>(model_->ActuatorCount()));
+  commands[0] = {ActuatorCommand::Kind::kTension, tension_N};
   const Status solved = model_->Solve(commands, {}, &small_state).status;
   ASSERT_TRUE(solved.ok()) << solved.message();
   commands[0].value *= kScale * kScale;
   ASSERT_TRUE(large.Solve(commands, {}, &large_state).status.ok());
   EXPECT_GT((small_state.x_m - model_->RestState().x_m).norm(), 1e-3);
   EXPECT_LT((large_state.x_m - kScale * small_state.x_m).lpNorm<Eigen::Infinity>(), 1e-8);
-  EXPECT_NEAR(large.StateOfCable(0, large_state).displacement_m,
-              kScale * model_->StateOfCable(0, small_state).displacement_m, 1e-9);
+  EXPECT_NEAR(large.StateOfActuator(0, large_state).displacement_m,
+              kScale * model_->StateOfActuator(0, small_state).displacement_m, 1e-9);
   for (std::size_t m = 0; m < large.body().markers.size(); ++m) {
     const fem::BodyPoint& marker = large.body().markers[m].point;
     EXPECT_TRUE(marker.weights.Position(large.RestState().x_m).isApprox(marker.rest_m, 1e-9));
@@ -108,7 +108,7 @@ TEST_F(CalibratedGeometryTest, GuidesAreMovedAsMuchAsTheRobotIsLarger) {
   ApplyCalibration(Example(), &large);
   EXPECT_TRUE(large.cable(0).pull_point_m().isApprox(
       kScale * (guide_m + Eigen::Vector3d(1e-3, -2e-3, 0.5e-3)), 1e-12));
-  EXPECT_NEAR(large.cable_rest_length_m()[0], large.cable(0).rest_length_m(), 1e-15);
+  EXPECT_NEAR(large.actuator_rest_m()[0], large.cable(0).rest_length_m(), 1e-15);
 }
 
 TEST_F(CalibratedGeometryTest, EyeletsAreMovedAsMuchAsTheRobotIsLarger) {

@@ -203,11 +203,11 @@ TEST_F(CalibrationFileTest, HoldsAndGivesGravityAndPoissonsRatios) {
 TEST_F(CalibrationFileTest, DrivesReadWhatIsMeasured) {
   CalibrationFile calibration = Example();
   calibration.moduli.clear();
-  const std::string cable = model_->CableNames().front();
+  const std::string cable = model_->ActuatorNames().front();
   calibration.drives = {{cable, {7e-4, 0.05}, {}}};
   ApplyCalibration(calibration, model_.get());
-  const CableCommand command = model_->CommandFor(0, 0.01, {}, CableInput::kDisplacement);
-  EXPECT_EQ(command.kind, CableCommand::Kind::kDisplacement);
+  const ActuatorCommand command = model_->CommandFor(0, 0.01, {}, CableInput::kDisplacement);
+  EXPECT_EQ(command.kind, ActuatorCommand::Kind::kDisplacement);
   EXPECT_DOUBLE_EQ(command.value, 1.05 * 0.01 + 7e-4);
   EXPECT_EQ(model_->CommandFor(0, {}, 2.0, CableInput::kDisplacement).value, 2.0);
   calibration.drives[0].cable = cable + "x";

@@ -46,7 +46,7 @@ class ComplianceTest : public BeamModelTest {
   /// Linearises at any x under the present forces.
   void ComputeAt(const Eigen::VectorXd& x_m) {
     ASSERT_TRUE(model_->linearisation().Update(x_m, lambda_a_, state_.loads.external_force_N).ok());
-    compliance_->Compute(x_m, model_->cable_rest_length_m(), lambda_a_, lambda_f_);
+    compliance_->Compute(x_m, model_->actuator_rest_m(), lambda_a_, lambda_f_);
   }
 
   Eigen::VectorXd Effectors(const Eigen::VectorXd& x_m) const {

@@ -15,7 +15,7 @@ class SensitivityTest : public BeamModelTest {
  protected:
   static constexpr int kParameters = 5;
 
-  fem::StaticState Equilibrium(const std::vector<CableCommand>& cables,
+  fem::StaticState Equilibrium(const std::vector<ActuatorCommand>& cables,
                                const Eigen::VectorXd& parameters) {
     for (int k = 0; k < 3; ++k) model_->SetYoungsModulus(k, parameters[k]);
     const Eigen::Vector3d force_N(0.0, parameters[3], parameters[4]);
@@ -41,7 +41,7 @@ class SensitivityTest : public BeamModelTest {
     return derivative;
   }
 
-  void ExpectEqualsDifferences(const std::vector<CableCommand>& cables) {
+  void ExpectEqualsDifferences(const std::vector<ActuatorCommand>& cables) {
     const fem::StaticState state = Equilibrium(cables, parameters_);
     Eigen::MatrixXd dx_dp;
     const Status status =
@@ -70,19 +70,19 @@ TEST_F(SensitivityTest, UnderCableTension) { ExpectEqualsDifferences({Pull(0.8),
 
 TEST_F(SensitivityTest, UnderTautCablesOfGivenDisplacement) {
   model_->SetGravity(Eigen::Vector3d::Zero());
-  const std::vector<CableCommand> cables{Displace(0.003), Displace(0.002)};
+  const std::vector<ActuatorCommand> cables{Displace(0.003), Displace(0.002)};
   EXPECT_GT(Equilibrium(cables, parameters_).multipliers_N.minCoeff(), 0.01);
   ExpectEqualsDifferences(cables);
 }
 
 TEST_F(SensitivityTest, ASlackCableTakesNoPart) {
-  const std::vector<CableCommand> cables{Displace(0.004), Displace(-0.05)};
+  const std::vector<ActuatorCommand> cables{Displace(0.004), Displace(-0.05)};
   EXPECT_EQ(Equilibrium(cables, parameters_).multipliers_N[1], 0.0);
   ExpectEqualsDifferences(cables);
 }
 
 TEST_F(SensitivityTest, ATautCableKeepsItsLength) {
-  const std::vector<CableCommand> cables{Displace(0.004), Pull(0.2)};
+  const std::vector<ActuatorCommand> cables{Displace(0.004), Pull(0.2)};
   const fem::StaticState state = Equilibrium(cables, parameters_);
   Eigen::MatrixXd dx_dp;
   ASSERT_TRUE(

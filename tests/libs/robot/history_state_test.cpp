@@ -33,9 +33,9 @@ class HistoryStateTest : public BeamModelTest {
   /// The equilibrium of a frame, committed.
   fem::StaticState Follow(double t_s, double displacement_m, RobotModel* model,
                           HistoryState* history) {
-    std::vector<CableCommand> commands(static_cast<std::size_t>(model->CableCount()));
+    std::vector<ActuatorCommand> commands(static_cast<std::size_t>(model->ActuatorCount()));
     commands[0] = Displace(displacement_m);
-    const std::vector<CableCommand> reached = history->Prepare(t_s, commands);
+    const std::vector<ActuatorCommand> reached = history->Prepare(t_s, commands);
     EXPECT_TRUE(model->Solve(reached, {}, &state_).status.ok());
     history->Commit(state_.x_m, state_.multipliers_N);
     return state_;
@@ -57,7 +57,7 @@ TEST_F(HistoryStateTest, LeavesARobotWithoutThemAsItIs) {
   const auto model = With("");
   HistoryState history(*model);
   EXPECT_FALSE(history.active());
-  const std::vector<CableCommand> commands = {Displace(0.003), Pull(1.0)};
+  const std::vector<ActuatorCommand> commands = {Displace(0.003), Pull(1.0)};
   for (const double t_s : {0.0, 0.1, 5.0}) EXPECT_EQ(history.Prepare(t_s, commands), commands);
   EXPECT_EQ(model->cable(0).friction().Sliding(0), 1.0);
 }
@@ -101,7 +101,7 @@ TEST_F(HistoryStateTest, CreepRelaxesWithItsTime) {
   }
   const Eigen::VectorXd elastic_N = Resistance_N(*model, bent_m);
   HistoryState history(*model);
-  const std::vector<CableCommand> off(2);
+  const std::vector<ActuatorCommand> off(2);
   const Eigen::VectorXd slack_N = Eigen::VectorXd::Zero(2);
   const auto commit = [&](double t_s, const Eigen::VectorXd& x_m) {
     history.Prepare(t_s, off);
@@ -140,7 +140,7 @@ TEST_F(HistoryStateTest, SoftensBelowTheLargestStrain) {
   const double now_J_m3 = density_J_m3(0.03);
   const Eigen::VectorXd virgin_N = Resistance_N(*model, stretched_m(0.03));
   HistoryState history(*model);
-  const std::vector<CableCommand> off(2);
+  const std::vector<ActuatorCommand> off(2);
   for (int frame = 0; frame < 40; ++frame) {
     history.Prepare(0.1 * frame, off);
     history.Commit(stretched_m(frame < 20 ? 0.05 : 0.03), Eigen::VectorXd::Zero(2));
@@ -239,11 +239,11 @@ TEST_F(HistoryStateTest, CorrectionsSettle) {
   model->SetGravity(Eigen::Vector3d::Zero());
   HistoryState history(*model);
   state_ = model->RestState();
-  std::vector<CableCommand> commands(2);
+  std::vector<ActuatorCommand> commands(2);
   int corrected = 0;
   for (int frame = 0; frame <= 24; ++frame) {
     commands[0] = Displace(2e-4 * (frame <= 12 ? frame : 24 - frame));
-    const std::vector<CableCommand> reached = history.Prepare(0.1 * frame, commands);
+    const std::vector<ActuatorCommand> reached = history.Prepare(0.1 * frame, commands);
     int round = 0;
     do {
       ASSERT_TRUE(model->Solve(reached, {}, &state_).status.ok()) << frame;

@@ -53,11 +53,11 @@ TEST_F(RobotModelTest, ATautCableHasTheCommandedLengthAndASlackOneNoTension) {
   fem::StaticState state = model->RestState();
   const fem::StaticResult result = model->Solve({Displace(0.008), Displace(-0.02)}, {}, &state);
   ASSERT_TRUE(result.status.ok()) << result.status.message();
-  const CableState north = model->StateOfCable(0, state);
+  const ActuatorState north = model->StateOfActuator(0, state);
   EXPECT_NEAR(north.displacement_m, 0.008, 1e-9);
-  EXPECT_NEAR(north.length_m, model->cable_rest_length_m()[0] - 0.008, 1e-9);
+  EXPECT_NEAR(north.length_m, model->actuator_rest_m()[0] - 0.008, 1e-9);
   EXPECT_GT(north.tension_N, 0.1);
-  const CableState south = model->StateOfCable(1, state);
+  const ActuatorState south = model->StateOfActuator(1, state);
   EXPECT_EQ(south.tension_N, 0.0);
   EXPECT_GT(south.displacement_m, -0.02);
 }
@@ -93,12 +93,12 @@ TEST_F(RobotModelTest, ACableThatStretchesIsShorterByLess) {
       fem::StaticState state = model->RestState();
       const fem::StaticResult result = model->Solve({Displace(0.012), Displace(-0.03)}, {}, &state);
       ASSERT_TRUE(result.status.ok()) << result.status.message();
-      const CableState north = model->StateOfCable(0, state);
+      const ActuatorState north = model->StateOfActuator(0, state);
       ASSERT_GT(north.tension_N, 0.1);
       const double stretch_m = compliance_m_N * north.tension_N;
-      EXPECT_NEAR(north.length_m, model->cable_rest_length_m()[0] - 0.012 + stretch_m, 1e-9);
+      EXPECT_NEAR(north.length_m, model->actuator_rest_m()[0] - 0.012 + stretch_m, 1e-9);
       EXPECT_NEAR(north.displacement_m, 0.012, 1e-9);
-      EXPECT_EQ(model->StateOfCable(1, state).tension_N, 0.0);
+      EXPECT_EQ(model->StateOfActuator(1, state).tension_N, 0.0);
       const auto stiff = Build(FullRobotText());
       fem::StaticState held = stiff->RestState();
       ASSERT_TRUE(stiff->Solve({Displace(0.012 - stretch_m), {}}, {}, &held).status.ok());
@@ -115,7 +115,7 @@ TEST_F(RobotModelTest, ACableThatStretchesIsPulledOnInSmallerPieces) {
   const fem::StaticResult result = model->Solve({Displace(0.02), {}}, {}, &state);
   ASSERT_TRUE(result.status.ok()) << result.status.message();
   EXPECT_GT(result.load_steps, 1);
-  EXPECT_NEAR(model->StateOfCable(0, state).displacement_m, 0.02, 1e-9);
+  EXPECT_NEAR(model->StateOfActuator(0, state).displacement_m, 0.02, 1e-9);
 }
 
 TEST_F(RobotModelTest, ReachesTwentyMillimetresOfCableInOneGo) {
@@ -124,7 +124,7 @@ TEST_F(RobotModelTest, ReachesTwentyMillimetresOfCableInOneGo) {
     fem::StaticState state = model->RestState();
     const fem::StaticResult result = model->Solve({Displace(0.020), {}}, {}, &state);
     ASSERT_TRUE(result.status.ok()) << law << ": " << result.status.message();
-    EXPECT_NEAR(model->StateOfCable(0, state).displacement_m, 0.020, 1e-9);
+    EXPECT_NEAR(model->StateOfActuator(0, state).displacement_m, 0.020, 1e-9);
     EXPECT_LE(result.residual_relative, 1e-10);
   }
 }
@@ -187,7 +187,7 @@ TEST_F(RobotModelTest, ChoosesTheCommandThatIsKnown) {
                        CableInput preferred) {
     return ChooseCommand(displacement_m, tension_N, preferred).kind;
   };
-  using Kind = CableCommand::Kind;
+  using Kind = ActuatorCommand::Kind;
   EXPECT_EQ(kind({}, {}, CableInput::kTension), Kind::kNone);
   EXPECT_EQ(kind(0.01, {}, CableInput::kTension), Kind::kDisplacement);
   EXPECT_EQ(kind({}, 2.0, CableInput::kDisplacement), Kind::kTension);
@@ -199,7 +199,7 @@ TEST_F(RobotModelTest, ChoosesTheCommandThatIsKnown) {
 
 TEST_F(RobotModelTest, KnowsItsNames) {
   const auto model = Build(FullRobotText());
-  EXPECT_EQ(model->CableNames(), (std::vector<std::string>{"north", "south"}));
+  EXPECT_EQ(model->ActuatorNames(), (std::vector<std::string>{"north", "south"}));
   EXPECT_EQ(model->MarkerNames(), (std::vector<std::string>{"m1", "2"}));
   const fem::SurfacePatch patch = model->Patch({0.0, 0.05, 0.01}, 0.004);
   EXPECT_LE((patch.centre_m - Eigen::Vector3d(0.0, 0.05, 0.01)).norm(), 1e-4);

@@ -40,7 +40,7 @@ struct ChainSettings {
 /// What goes wrong on the way to our own perception and to the estimator; empty: nothing.
 struct ChainFaults {
   std::function<void(rgbd::RgbdFrame*)> images;
-  std::function<void(std::vector<robot::CableCommand>*)> cables;
+  std::function<void(std::vector<robot::ActuatorCommand>*)> cables;
 };
 
 /// From the camera's frames of a scene to forces: the robot file's model, which knows nothing of

@@ -110,12 +110,12 @@ Eigen::Matrix3Xd SensingScene::NodesInCamera_m() const {
   return T_robot_camera().inverse() * state_.nodes_m;
 }
 
-std::vector<robot::CableCommand> SensingScene::Cables() const {
-  std::vector<robot::CableCommand> commands;
+std::vector<robot::ActuatorCommand> SensingScene::Cables() const {
+  std::vector<robot::ActuatorCommand> commands;
   for (const virtual_robot::CableReading& cable : state_.cables) {
     const bool driven = std::isfinite(cable.displacement_m);
-    commands.push_back({.kind = driven ? robot::CableCommand::Kind::kDisplacement
-                                       : robot::CableCommand::Kind::kNone,
+    commands.push_back({.kind = driven ? robot::ActuatorCommand::Kind::kDisplacement
+                                       : robot::ActuatorCommand::Kind::kNone,
                         .value = driven ? cable.displacement_m : 0.0});
   }
   return commands;

@@ -76,7 +76,7 @@ class SensingScene {
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] of the true surface
   Eigen::Matrix3Xd NodesInCamera_m() const;                         ///< [3 x nodes] camera frame
   /// The cable inputs of the estimator: displacements.
-  std::vector<robot::CableCommand> Cables() const;
+  std::vector<robot::ActuatorCommand> Cables() const;
 
  private:
   void Read(const scenario::BenchInputs& inputs);

@@ -169,7 +169,7 @@ TEST_F(BadInput, ImagesThatShowNothingAreSaid) {
 
 TEST_F(BadInput, CableInputsThatAreNoNumbersAreSaid) {
   ExpectRecovery("the beginning");
-  chain_->SetFaults({.images = {}, .cables = [](std::vector<robot::CableCommand>* cables) {
+  chain_->SetFaults({.images = {}, .cables = [](std::vector<robot::ActuatorCommand>* cables) {
                        cables->front().value = std::numeric_limits<double>::quiet_NaN();
                      }});
   ExpectFlagged(3);

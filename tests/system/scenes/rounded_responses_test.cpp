@@ -16,8 +16,8 @@ namespace {
 TEST(SinglePrecisionResponses, ErrFarLessThanTheModel) {
   robot::RobotModel model(robot::BuildRobotBody(FourLegRobot()));
   fem::StaticState state = model.RestState();
-  std::vector<robot::CableCommand> cables(static_cast<size_t>(model.CableCount()),
-                                          {robot::CableCommand::Kind::kDisplacement, 0.003});
+  std::vector<robot::ActuatorCommand> cables(static_cast<size_t>(model.ActuatorCount()),
+                                             {robot::ActuatorCommand::Kind::kDisplacement, 0.003});
   ASSERT_TRUE(model.Solve(cables, {}, &state).status.ok());
   fem::Linearisation& linearisation = model.linearisation();
   const auto update = [&] {

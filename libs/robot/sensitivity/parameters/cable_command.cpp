@@ -11,7 +11,7 @@ namespace palpate::robot {
 
 namespace {
 
-using Kind = CableCommand::Kind;
+using Kind = ActuatorCommand::Kind;
 /// Change of a command's value per unit of the parameter.
 using Change = std::function<double(const EquilibriumPoint&)>;
 

@@ -25,10 +25,8 @@ class RestShape : public Parameter {
     }
     if (mass_ != MassRule::kNodalKept) ChangeMass(at, mode_m, column);
     if (zero_ == CableZero::kKept) return;
-    Eigen::Matrix3Xd motion_m;
-    for (int c = 0; c < at.model().CableCount(); ++c) {
-      at.PathMotion(c, mode_m, &motion_m);
-      column->commanded_length_m[c] += at.rest_path(c).LengthAlong(motion_m);
+    for (int c = 0; c < at.model().ActuatorCount(); ++c) {
+      column->commanded_length_m[c] += at.RestLengthAlong(c, mode_m);
     }
   }
 

@@ -93,7 +93,7 @@ TEST_F(CloudCalibrationTest, FindsTheTensionOfACableOfWhichNothingIsTold) {
   const std::vector<double> pulls_m = {0.008, 0.0, 0.008, 0.002};
   CloudFrame frame = SeeCloud(*model_, truth_, "still", pulls_m, pulls_m, kOthers, random_);
   const fem::StaticState state = force_estimation::SolveTruth(*model_, frame.cables, {});
-  const double tension_N = model_->StateOfCable(0, state).tension_N;
+  const double tension_N = model_->StateOfActuator(0, state).tension_N;
   ASSERT_GT(tension_N, 0.5);
   frame.cables[0] = {};
   const CloudCalibration fit =

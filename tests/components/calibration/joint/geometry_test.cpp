@@ -142,14 +142,14 @@ TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
       *model_, See(*truth_), nullptr,
       {.actuator_offsets = false, .cable_route_sigma_m = 2e-3, .marker_placement_sigma_m = 0.0});
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
-  const std::string name = "cable_route:" + model_->CableNames()[1] + ":";
+  const std::string name = "cable_route:" + model_->ActuatorNames()[1] + ":";
   ExpectFound(fit, name + across[0].name, 1.5e-3, 5e-4);
   ExpectFound(fit, name + across[1].name, -1e-3, 5e-4);
   robot::CalibrationFile file = robot::DescribeForCalibration(*model_);
   TakeFit(fit, *model_, &file);
   const auto route = std::find_if(
       file.cable_routes.begin(), file.cable_routes.end(),
-      [&](const robot::CalibratedRoute& one) { return one.cable == model_->CableNames()[1]; });
+      [&](const robot::CalibratedRoute& one) { return one.cable == model_->ActuatorNames()[1]; });
   ASSERT_NE(route, file.cable_routes.end());
   const auto calibrated = Build(QuickFourLegRobot());
   robot::ApplyCalibration(file, calibrated.get());
@@ -163,7 +163,7 @@ TEST_F(GeometryOfOurRobot, EyeletsOfItsCablesShow) {
   constexpr int kCable = 1;
   const auto across = AcrossCable(model_->body(), kCable, 1);
   robot::CalibrationFile moved = robot::DescribeForCalibration(*model_);
-  moved.cable_routes = {{.cable = model_->CableNames()[kCable],
+  moved.cable_routes = {{.cable = model_->ActuatorNames()[kCable],
                          .point = 1,
                          .moved_m = 1.5e-3 * across[0].direction - 1e-3 * across[1].direction}};
   robot::RobotBody body = robot::BuildRobotBody(QuickFourLegRobot());
@@ -200,16 +200,16 @@ TEST_F(GeometryOfOurRobot, EyeletsNeedAModelWithRoom) {
 TEST_F(GeometryOfOurRobot, PathsArePutBackWhereNothingIsFound) {
   const auto model = BuildWithRoom(QuickFourLegRobot(), 4e-3);
   const Eigen::Vector3d guide_m = model->cable(0).pull_point_m();
-  const Eigen::VectorXd rest_length_m = model->cable_rest_length_m();
+  const Eigen::VectorXd rest_length_m = model->actuator_rest_m();
   const std::vector<double> weights = model->cable(1).eyelets()[0].weights;
   const ModelSnapshot kept(*model);
   model->SetPullPoint(0, guide_m + Eigen::Vector3d(0.0, 0.0, -0.01));
   ASSERT_TRUE(model->MoveEyelet(1, 0, Eigen::Vector3d(2e-3, 0.0, 1e-3)).ok());
-  EXPECT_NE(model->cable_rest_length_m()[0], rest_length_m[0]);
-  EXPECT_NE(model->cable_rest_length_m()[1], rest_length_m[1]);
+  EXPECT_NE(model->actuator_rest_m()[0], rest_length_m[0]);
+  EXPECT_NE(model->actuator_rest_m()[1], rest_length_m[1]);
   kept.Restore();
   EXPECT_EQ(model->cable(0).pull_point_m(), guide_m);
-  EXPECT_LT((model->cable_rest_length_m() - rest_length_m).lpNorm<Eigen::Infinity>(), 1e-15);
+  EXPECT_LT((model->actuator_rest_m() - rest_length_m).lpNorm<Eigen::Infinity>(), 1e-15);
   for (std::size_t k = 0; k < weights.size(); ++k) {
     EXPECT_NEAR(model->cable(1).eyelets()[0].weights[k], weights[k], 1e-12);
   }

@@ -22,11 +22,11 @@ using testing::HasSubstr;
 const std::vector<double> kPaperTensions_N(kTableOneForces_N.begin(), kTableOneForces_N.end());
 
 void FreeTensions(const robot::RobotModel& model, double start_N, JointSetup* setup) {
-  for (int c = 0; c < model.CableCount(); ++c) {
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     setup->frames[0].cables[static_cast<size_t>(c)] = {Kind::kTension, start_N};
     setup->unknowns.push_back(CableInput(0, "table_1", c,
-                                         model.CableNames()[static_cast<size_t>(c)], Kind::kTension,
-                                         {.mean = start_N, .lower = 0.0}));
+                                         model.ActuatorNames()[static_cast<size_t>(c)],
+                                         Kind::kTension, {.mean = start_N, .lower = 0.0}));
   }
 }
 
@@ -99,7 +99,7 @@ TEST_F(JointCalibrationOfOurRobot, OffsetsAndGainsOfCablesShow) {
   JointSetup setup = Frames(4, 1e-4, nullptr);
   std::vector<double> measured_m;
   for (CalibrationFrame& frame : setup.frames) {
-    robot::CableCommand& north = frame.cables[0];
+    robot::ActuatorCommand& north = frame.cables[0];
     north.value = (north.value - 7e-4) / 1.05;
     measured_m.push_back(north.value);
   }

@@ -30,8 +30,8 @@ inline geometry::RigidTransform Disturbed(const geometry::RigidTransform& T, dou
           T.translation_m() + shift_m * Eigen::Vector3d(0.6, 0.0, -0.8)};
 }
 
-inline std::vector<robot::CableCommand> Commands(Kind kind, const std::vector<double>& values) {
-  std::vector<robot::CableCommand> commands;
+inline std::vector<robot::ActuatorCommand> Commands(Kind kind, const std::vector<double>& values) {
+  std::vector<robot::ActuatorCommand> commands;
   for (const double value : values) commands.push_back({kind, value});
   return commands;
 }
@@ -47,7 +47,7 @@ inline std::unique_ptr<robot::RobotModel> BuildWithRoom(const robot::RobotDescri
 /// What a camera at `T_robot_camera` sees of `model` as it is now.
 inline CalibrationFrame See(robot::RobotModel& model,
                             const geometry::RigidTransform& T_robot_camera, const std::string& name,
-                            const std::vector<robot::CableCommand>& commands,
+                            const std::vector<robot::ActuatorCommand>& commands,
                             const std::vector<robot::DeadLoad>& loads, double sigma_m,
                             std::mt19937_64* random = nullptr) {
   const fem::StaticState state = force_estimation::SolveTruth(model, commands, loads);

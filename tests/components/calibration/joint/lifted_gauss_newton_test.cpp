@@ -27,10 +27,10 @@ class ApproachToTheSolution : public testing::Test {
     JointSetup setup;
     setup.frames = {See(*model_, TableOnePose(), "table_1",
                         Commands(Kind::kTension, {1.2, 1.0, 1.0, 1.2}), {}, 3e-4, &random)};
-    for (int c = 0; c < model_->CableCount(); ++c) {
+    for (int c = 0; c < model_->ActuatorCount(); ++c) {
       setup.frames[0].cables[static_cast<size_t>(c)] = {Kind::kTension, 0.5};
       setup.unknowns.push_back(CableInput(0, "table_1", c,
-                                          model_->CableNames()[static_cast<size_t>(c)],
+                                          model_->ActuatorNames()[static_cast<size_t>(c)],
                                           Kind::kTension, {.mean = 0.5, .lower = 0.0}));
     }
     setup.T_robot_camera = Disturbed(TableOnePose(), 0.2, 0.03);
@@ -46,10 +46,10 @@ class ApproachToTheSolution : public testing::Test {
       setup.frames.push_back(See(*model_, TableOnePose(), "pulled",
                                  Commands(Kind::kDisplacement, {pulled_m, 0.006, 0.003, pulled_m}),
                                  {{hub, Eigen::Vector3d(0.3, 0.1, -0.2)}}, 3e-4, &random));
-      for (robot::CableCommand& cable : setup.frames.back().cables) cable.value -= 5e-4;
+      for (robot::ActuatorCommand& cable : setup.frames.back().cables) cable.value -= 5e-4;
     }
-    for (int c = 0; c < model_->CableCount(); ++c) {
-      setup.unknowns.push_back(CommandOffset(c, model_->CableNames()[static_cast<size_t>(c)],
+    for (int c = 0; c < model_->ActuatorCount(); ++c) {
+      setup.unknowns.push_back(CommandOffset(c, model_->ActuatorNames()[static_cast<size_t>(c)],
                                              {.sigma = 2e-3, .plausible = 2e-3}));
     }
     setup.unknowns.push_back(LogYoungsModulus(0, "body", 1.2e5, {.sigma = 0.5, .plausible = 0.5}));

@@ -95,7 +95,7 @@ void Compare(const JointCalibration& fit, const std::array<double, 4>& offset_m,
   }
   for (int c = 0; c < 4; ++c) {
     const FittedValue* found =
-        ValueNamed(fit, "cable_offset:" + model.CableNames()[static_cast<size_t>(c)]);
+        ValueNamed(fit, "cable_offset:" + model.ActuatorNames()[static_cast<size_t>(c)]);
     const double off_m = std::abs(found->value - offset_m[static_cast<size_t>(c)]);
     worst->cable_m = std::max(worst->cable_m, off_m);
     worst->within += off_m <= 1.96 * found->standard_error;

@@ -9,7 +9,7 @@ namespace palpate::calibration {
 namespace {
 
 using State = CableWatch::State;
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 constexpr std::int64_t kMs_ns = 1'000'000;
 

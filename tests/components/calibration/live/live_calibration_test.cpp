@@ -11,7 +11,7 @@
 namespace palpate::calibration {
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 const Eigen::Vector3d kGravity_m_s2(1.5, -0.5, -9.0);
 const robot::DriveCalibration kEarlierActuator{.offset_m = 4e-4, .gain = 0.05};

@@ -165,8 +165,8 @@ class CalibrationNodeTest : public testing::Test {
   /// The robot's markers with an actuator that counts from kOffset_m, as the camera sees them.
   Eigen::Matrix3Xd MarkersSeen(double told_m) {
     fem::StaticState state = robot_->RestState();
-    const auto result =
-        robot_->Solve({{robot::CableCommand::Kind::kDisplacement, told_m + kOffset_m}}, {}, &state);
+    const auto result = robot_->Solve(
+        {{robot::ActuatorCommand::Kind::kDisplacement, told_m + kOffset_m}}, {}, &state);
     EXPECT_TRUE(result.status.ok()) << result.status.message();
     const auto& markers = robot_->body().markers;
     Eigen::Matrix3Xd seen_m(3, std::ssize(markers));

@@ -198,7 +198,7 @@ TEST_F(MarkersOnTheFixedPart, TellNoInput) {
 
 /// Limits are kept, exactly: of displacement in the solved equilibrium, too.
 TEST_F(Algorithm1Refusals, OmegaIsKept) {
-  const double north_m = model_->StateOfCable(0, truth_).displacement_m;
+  const double north_m = model_->StateOfActuator(0, truth_).displacement_m;
   Algorithm1Settings settings;
   settings.limits.resize(4);
   settings.limits[0].most_displacement_m = north_m - 3e-4;

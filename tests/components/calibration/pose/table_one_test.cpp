@@ -25,8 +25,8 @@ void ExpectTableOne(const robot::RobotDescription& robot, const std::vector<int>
   EXPECT_LT(found.T_robot_camera.rotation().angularDistance(pose.rotation()), 1e-6);
   EXPECT_LT((found.T_robot_camera.translation_m() - pose.translation_m()).norm(), 1e-6);
   EXPECT_LT((found.state.x_m - truth.x_m).lpNorm<Eigen::Infinity>(), 1e-8);
-  for (int c = 0; c < model->CableCount(); ++c) {
-    EXPECT_NEAR(found.displacement_m[c], model->StateOfCable(c, truth).displacement_m, 1e-8);
+  for (int c = 0; c < model->ActuatorCount(); ++c) {
+    EXPECT_NEAR(found.displacement_m[c], model->StateOfActuator(c, truth).displacement_m, 1e-8);
   }
 
   // Fig. 6: the residual falls from iteration to iteration, linearly in the end.

@@ -17,7 +17,7 @@
 namespace palpate::calibration {
 namespace {
 
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 using testing::HasSubstr;
 
 class FourLegsWithoutNames : public testing::Test {
@@ -167,7 +167,7 @@ TEST_F(FourLegsWithoutNames, TheRangeOfTensionsHoldsWhatTheInputsAskFor) {
   Eigen::VectorXd most_N;
   ASSERT_TRUE(FindTensionRange(*model_, {frame.frame}, 2e-3, &most_N).ok());
   for (int c = 0; c < 4; ++c) {
-    EXPECT_GT(most_N[c], model_->StateOfCable(c, state).tension_N);
+    EXPECT_GT(most_N[c], model_->StateOfActuator(c, state).tension_N);
     EXPECT_LT(most_N[c], 20.0);
   }
   EXPECT_GT(most_N[0], 1.5 * most_N[2]);

@@ -17,7 +17,7 @@ std::vector<MarkerFrame> Motion(robot::RobotModel& model) {
   fem::StaticState state = model.RestState();
   std::mt19937 random(1);
   for (int i = 0; i < 12; ++i) {
-    std::vector<robot::CableCommand> cables;
+    std::vector<robot::ActuatorCommand> cables;
     for (int c = 0; c < 4; ++c)
       cables.push_back({Kind::kDisplacement, 0.003 + 2.5e-4 * i * (c + 1)});
     const auto load = LoadAt(model, {0.0, 0.0, 0.125}, 0.008, {0.1, 0.02 * i, -0.5 - 0.01 * i});

@@ -18,7 +18,7 @@ namespace palpate::force_estimation {
 namespace {
 
 using State = DriftReport::State;
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 /// The four legs, as a stereo camera at 0.45 m sees them.
 class DriftWatchTest : public testing::Test {
@@ -40,7 +40,7 @@ class DriftWatchTest : public testing::Test {
 
   /// Equilibrium with each cable pulled so far, and a push along x on the hub.
   static Eigen::VectorXd Shape(const std::vector<double>& pulled_m, double push_N) {
-    std::vector<robot::CableCommand> cables(4);
+    std::vector<robot::ActuatorCommand> cables(4);
     for (std::size_t c = 0; c < pulled_m.size(); ++c)
       cables[c] = {Kind::kDisplacement, pulled_m[c]};
     std::vector<robot::DeadLoad> loads;

@@ -19,7 +19,7 @@ namespace palpate::force_estimation {
 namespace {
 
 using State = DriftReport::State;
-using Kind = robot::CableCommand::Kind;
+using Kind = robot::ActuatorCommand::Kind;
 
 constexpr double kMarkerNoise_m = 3e-4;
 constexpr double kPeriod_s = 1.0 / 30.0;
@@ -87,7 +87,7 @@ class MarkerDriftTest : public testing::Test {
 
   std::unique_ptr<robot::RobotModel> robot_ = FourLegs(), truth_ = FourLegs();
   std::unique_ptr<MarkerPipeline> pipeline_;
-  std::vector<robot::CableCommand> cables_;
+  std::vector<robot::ActuatorCommand> cables_;
   DriftReport last_;
   double t_s_ = 100.0;
   std::mt19937 random_{20261122};

@@ -8,7 +8,7 @@
 namespace palpate::force_estimation {
 namespace {
 
-using robot::CableCommand;
+using robot::ActuatorCommand;
 using robot::CableInput;
 
 CableReading At(int64_t stamp_ns, double displacement_m) {
@@ -20,7 +20,7 @@ TEST(CableHistory, GivesTheInputsOfTheVeryStampElseLinearBetweenTheNeighbours) {
   history.Add(At(100, 0.1));
   history.Add(At(200, 0.3));
   EXPECT_EQ(history.At(200)->at(0).value, 0.3);
-  EXPECT_EQ(history.At(200)->at(0).kind, CableCommand::Kind::kDisplacement);
+  EXPECT_EQ(history.At(200)->at(0).kind, ActuatorCommand::Kind::kDisplacement);
   EXPECT_DOUBLE_EQ(history.At(150)->at(0).value, 0.2);
   EXPECT_EQ(history.At(99), std::nullopt);
   EXPECT_EQ(history.At(201), std::nullopt);
@@ -32,7 +32,7 @@ TEST(CableHistory, ARobotWithoutCablesNeedsNoInputs) {
 
 TEST(CableHistory, OldInputsServeForALimitedTimeOnly) {
   CableHistory history(1, CableInput::kDisplacement);
-  std::vector<CableCommand> commands;
+  std::vector<ActuatorCommand> commands;
   EXPECT_EQ(history.LastBefore(0, 1.0, &commands).code(), StatusCode::kStale);
   history.Add(At(1'000'000'000, 0.1));
   EXPECT_TRUE(history.LastBefore(1'400'000'000, 0.5, &commands).ok());
@@ -45,10 +45,10 @@ TEST(CableHistory, OldInputsServeForALimitedTimeOnly) {
 TEST(CableHistory, WhereBothInputsAreKnownThePreferredOneIsImposed) {
   CableHistory history(1, CableInput::kTension);
   history.Add({100, {{0.01, 5.0}}});
-  EXPECT_EQ(history.At(100)->at(0).kind, CableCommand::Kind::kTension);
+  EXPECT_EQ(history.At(100)->at(0).kind, ActuatorCommand::Kind::kTension);
   EXPECT_EQ(history.At(100)->at(0).value, 5.0);
   history.Add({200, {{std::nullopt, std::nullopt}}});
-  EXPECT_EQ(history.At(200)->at(0).kind, CableCommand::Kind::kNone);
+  EXPECT_EQ(history.At(200)->at(0).kind, ActuatorCommand::Kind::kNone);
 }
 
 TEST(CableHistory, WhenTimeGoesBackNothingOldIsFound) {

@@ -35,8 +35,8 @@ NodeConfig MarkersConfig() {
 /// Positions of the beam's markers with the cable pulled and `force_N` at the contact "tip".
 MarkerFrame FrameUnderLoad(const Eigen::Vector3d& force_N, ReferenceShape reference, double t_s) {
   const auto model = NodeTestRobot();
-  const std::vector<robot::CableCommand> cables{
-      {robot::CableCommand::Kind::kDisplacement, kPulled_m}};
+  const std::vector<robot::ActuatorCommand> cables{
+      {robot::ActuatorCommand::Kind::kDisplacement, kPulled_m}};
   const auto patch = model->Patch({0.0, 0.015, 0.03}, 0.008);
   fem::StaticState state = model->RestState();
   EXPECT_TRUE(model->Solve(cables, {{patch.weights, force_N}}, &state).status.ok());

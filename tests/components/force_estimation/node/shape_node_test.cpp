@@ -62,7 +62,7 @@ TEST_F(ShapeNodeTest, TheCablesGiveAPostureBeforeTheFirstFrame) {
   ASSERT_EQ(script_.expected().size(), 1u);
   const auto model = NodeTestRobot();
   fem::StaticState state = model->RestState();
-  const robot::CableCommand pulled{robot::CableCommand::Kind::kDisplacement, kCable_m};
+  const robot::ActuatorCommand pulled{robot::ActuatorCommand::Kind::kDisplacement, kCable_m};
   ASSERT_TRUE(model->Solve({pulled}, {}, &state).status.ok());
   EXPECT_TRUE(script_.expected()[0].isApprox(state.x_m, 1e-6));
   // The first frame begins a pipeline, which knows of it.
@@ -199,7 +199,7 @@ TEST(PipelineMaker, LearnsNoDepthBiasThatTheCalibrationGives) {
   const auto model = NodeTestRobot();
   const auto to_come = [&](const robot::CalibrationFile& calibration) {
     PerceivedShape shape;
-    shape.frame.cables = {robot::CableCommand()};
+    shape.frame.cables = {robot::ActuatorCommand()};
     return PipelineMakerOf(TestConfig(), calibration)(*model)->Update(shape).bias_frames_to_come;
   };
   robot::CalibrationFile calibration;

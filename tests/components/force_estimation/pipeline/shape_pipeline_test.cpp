@@ -159,7 +159,7 @@ TEST_F(ShapePipelineTest, MovesKnownContactsWithThePredictedShape) {
 TEST(ShapePipelineOfFourLegs, EstimatesTheForceAtAGivenContact) {
   const Eigen::Vector3d place_m(0.0, 0.0, 0.125);
   ShapeScene scene(51);
-  const std::vector<robot::CableCommand> cables(4);
+  const std::vector<robot::ActuatorCommand> cables(4);
   const Eigen::VectorXd free_m = SolveTruth(*scene.model, cables, {}).x_m;
   const robot::DeadLoad push = LoadAt(*scene.model, place_m, 0.006, {0.0, 0.0, -1.0});
   const Eigen::VectorXd pushed_m = SolveTruth(*scene.model, cables, {push}).x_m;

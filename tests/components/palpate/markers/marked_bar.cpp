@@ -57,8 +57,9 @@ MarkedBar::Points MarkedBar::See(const BarSight& sight) {
   if (sight.load_N > 0.0) {
     loads.push_back({truth_->Patch(kTip_m, 0.0).weights, {0.0, 0.0, -sight.load_N}});
   }
-  const auto solved = truth_->Solve(
-      {{robot::CableCommand::Kind::kDisplacement, sight.commanded_m + kOffset_m}}, loads, &state);
+  const auto solved =
+      truth_->Solve({{robot::ActuatorCommand::Kind::kDisplacement, sight.commanded_m + kOffset_m}},
+                    loads, &state);
   EXPECT_TRUE(solved.status.ok()) << solved.status.message();
   std::normal_distribution<double> noise(0.0, kNoise_m);
   Points points;

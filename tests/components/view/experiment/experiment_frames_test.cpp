@@ -49,9 +49,10 @@ class ModelExperiment : public testing::Test {
   std::vector<Eigen::Vector3d> MarkersAt(double displacement_m) {
     KnownRobot robot(MarkedBeam());
     fem::StaticState state = robot.model().RestState();
-    EXPECT_TRUE(robot.model()
-                    .Solve({{robot::CableCommand::Kind::kDisplacement, displacement_m}}, {}, &state)
-                    .status.ok());
+    EXPECT_TRUE(
+        robot.model()
+            .Solve({{robot::ActuatorCommand::Kind::kDisplacement, displacement_m}}, {}, &state)
+            .status.ok());
     std::vector<Eigen::Vector3d> markers_m;
     for (const robot::BodyMarker& marker : robot.body().markers) {
       markers_m.push_back(marker.point.weights.Position(state.x_m));

@@ -56,7 +56,7 @@ TEST_F(ForceThatIsFelt, MovesWhatIsMeasuredByTheStatedMultipleOfItsNoise) {
   robot_.model().SetGravity(Eigen::Vector3d::Zero());
   fem::StaticState state = robot_.model().RestState();
   ASSERT_TRUE(robot_.model()
-                  .Solve({robot::CableCommand{}},
+                  .Solve({robot::ActuatorCommand{}},
                          {{patch_.weights, -kShare * smallest_N * patch_.normal}}, &state)
                   .status.ok());
   const double motion_m =

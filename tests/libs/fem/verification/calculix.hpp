@@ -15,8 +15,9 @@ namespace palpate::fem::verification {
 std::optional<std::filesystem::path> FindCalculix();
 
 /// The problem as an input deck: C3D4 or C3D10 on the same nodes and cells, NLGEOM, the same nodal
-/// forces, every held direction at 0. The material is CalculiX's own neo-Hookean with the same E
-/// and nu, W = mu/2 (I1 J^(-2/3) - 3) + K/2 (J - 1)^2, whatever the problem's model.
+/// forces and pressures on faces, every held direction at 0. The material is CalculiX's own
+/// neo-Hookean with the same E and nu, W = mu/2 (I1 J^(-2/3) - 3) + K/2 (J - 1)^2, whatever the
+/// problem's model.
 void WriteCalculixInput(const StaticProblem& problem, const std::filesystem::path& file);
 
 /// Displacements [3n], m, of the last increment in a .dat file; throws std::runtime_error where a

@@ -15,6 +15,13 @@ namespace palpate::fem::verification {
 
 using VectorField = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
+/// Pressure on the face of a cell that lies opposite to one of its corners.
+struct FacePressure {
+  int cell = 0;
+  int opposite_corner = 0;
+  double pressure_Pa = 0.0;
+};
+
 /// A body with its supports and dead loads, as a textbook states it.
 struct StaticProblem {
   StaticProblem(TetMesh body_mesh, const Material& body_material);
@@ -36,6 +43,7 @@ struct StaticProblem {
   Eigen::VectorXd external_force_N;  ///< [3n]
   std::vector<ScalarConstraint*> constraints;
   std::vector<ConstraintCommand> commands;
+  std::vector<FacePressure> pressures;  ///< for CalculiX; here a constraint presses
 };
 
 struct Solution {

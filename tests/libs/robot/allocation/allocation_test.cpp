@@ -69,7 +69,7 @@ TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
     ok = ok && model.linearisation().Update(x_m, lambda_a, force_N).ok();
     model.linearisation().Solve(columns);
     columns.setOnes();
-    compliance.Compute(x_m, model.cable_rest_length_m(), lambda_a, lambda_f);
+    compliance.Compute(x_m, model.actuator_rest_m(), lambda_a, lambda_f);
     compliance.EffectorPositions(lambda_a, lambda_f, &effectors_m);
     compliance.CableDisplacements(lambda_a, lambda_f, &cables_m);
     compliance.UpdateConfiguration(lambda_a, lambda_f, 0.5, &x_m);
@@ -86,7 +86,7 @@ TEST(Allocation, FollowingFramesTakesNoMemory) {
   if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
   RobotModel model(SoftBox());
   fem::StaticState state = model.RestState();
-  std::vector<CableCommand> cables(2, {CableCommand::Kind::kDisplacement, 1e-3});
+  std::vector<ActuatorCommand> cables(2, {ActuatorCommand::Kind::kDisplacement, 1e-3});
   ASSERT_TRUE(model.Solve(cables, {}, &state).status.ok());
   FrameTracker tracker(model, {.relative_tolerance = 1e-8});
   tracker.Start(state);

@@ -109,13 +109,13 @@ TEST_P(DiamondAgainstSofa, EveryNodeWithinAMicrometreAndTensionsWithinATenThousa
   const SofaCase sofa = ReadSofa(GetParam().csv);
   ASSERT_EQ(sofa.deformed_mm.cols(), 1628);
   RobotModel model = BuildDiamond(GetParam().model, "tet4");
-  ASSERT_EQ(model.CableNames(), sofa.cables);
+  ASSERT_EQ(model.ActuatorNames(), sofa.cables);
   const Eigen::Matrix3Xd rest_mm = 1e3 * model.body().mesh.nodes_m;
   EXPECT_LE((rest_mm - sofa.rest_mm).cwiseAbs().maxCoeff(), 1e-5);
-  std::vector<CableCommand> commands(sofa.cables.size());
+  std::vector<ActuatorCommand> commands(sofa.cables.size());
   for (size_t c = 0; c < commands.size(); ++c) {
     if (!sofa.displacement_mm[c]) continue;
-    commands[c] = {CableCommand::Kind::kDisplacement, 1e-3 * *sofa.displacement_mm[c]};
+    commands[c] = {ActuatorCommand::Kind::kDisplacement, 1e-3 * *sofa.displacement_mm[c]};
   }
   fem::StaticState state = model.RestState();
   const fem::StaticResult result = model.Solve(commands, {}, &state);
@@ -123,7 +123,7 @@ TEST_P(DiamondAgainstSofa, EveryNodeWithinAMicrometreAndTensionsWithinATenThousa
   const Eigen::Matrix3Xd deformed_mm = 1e3 * state.x_m.reshaped(3, 1628);
   EXPECT_LE((deformed_mm - sofa.deformed_mm).colwise().norm().maxCoeff(), 1e-3);
   for (size_t c = 0; c < commands.size(); ++c) {
-    const CableState cable = model.StateOfCable(static_cast<int>(c), state);
+    const ActuatorState cable = model.StateOfActuator(static_cast<int>(c), state);
     EXPECT_NEAR(1e3 * cable.tension_N, sofa.tension_mN[c], 1e-4 * sofa.tension_mN[c]);
     EXPECT_NEAR(model.cable(static_cast<int>(c)).rest_length_m(), 0.0882836338174, 1e-12);
   }
@@ -144,10 +144,10 @@ TEST(Diamond, AsTet10ReachesTwentyMillimetresOfCableInOneGo) {
   RobotModel model = BuildDiamond("stable_neo_hookean", "tet10");
   fem::StaticState state = model.RestState();
   const fem::StaticResult result =
-      model.Solve({{CableCommand::Kind::kDisplacement, 0.020}, {}, {}, {}}, {}, &state);
+      model.Solve({{ActuatorCommand::Kind::kDisplacement, 0.020}, {}, {}, {}}, {}, &state);
   ASSERT_TRUE(result.status.ok()) << result.status.message();
-  EXPECT_NEAR(model.StateOfCable(0, state).displacement_m, 0.020, 1e-9);
-  EXPECT_GT(model.StateOfCable(0, state).tension_N, 0.5);
+  EXPECT_NEAR(model.StateOfActuator(0, state).displacement_m, 0.020, 1e-9);
+  EXPECT_GT(model.StateOfActuator(0, state).tension_N, 0.5);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace palpate::robot {
 namespace {
 
-constexpr auto kPull = CableCommand::Kind::kDisplacement;
+constexpr auto kPull = ActuatorCommand::Kind::kDisplacement;
 
 /// A robot whose first cable goes to 20 mm and back by 1 mm a frame while a force on its highest
 /// point changes.
@@ -31,8 +31,8 @@ class Sweep {
   }
 
   static constexpr int kFrames = 40;
-  std::vector<CableCommand> Cables(int frame) const {
-    std::vector<CableCommand> cables(static_cast<size_t>(model_.CableCount()), {kPull, 0.0});
+  std::vector<ActuatorCommand> Cables(int frame) const {
+    std::vector<ActuatorCommand> cables(static_cast<size_t>(model_.ActuatorCount()), {kPull, 0.0});
     cables[0].value = 1e-3 * (frame <= 20 ? frame : 40 - frame);
     return cables;
   }

@@ -24,7 +24,7 @@ double ErrorOf(RobotModel& model, const fem::StaticState& state) {
       linearisation.UpdateResidual(state.x_m, state.multipliers_N, state.loads.external_force_N);
   EXPECT_TRUE(status.ok()) << ToString(status.code());
   double missed_m = 0.0;
-  for (int c = 0; c < model.CableCount(); ++c) {
+  for (int c = 0; c < model.ActuatorCount(); ++c) {
     const fem::ConstraintCommand& command = state.loads.commands[static_cast<size_t>(c)];
     if (command.mode != fem::ConstraintCommand::Mode::kUpperBound) continue;
     const double excess_m = model.cable(c).Value(state.x_m) - command.value;
@@ -34,7 +34,7 @@ double ErrorOf(RobotModel& model, const fem::StaticState& state) {
   }
   const double scale_N = fem::ForceScale_N(linearisation, state.loads, state.multipliers_N);
   return std::max(linearisation.residual_N().norm() / scale_N,
-                  missed_m / model.cable_rest_length_m().minCoeff());
+                  missed_m / model.actuator_rest_m().minCoeff());
 }
 
 bool IsFinite(const fem::StaticState& state) {
@@ -74,7 +74,7 @@ void RunLoading(RobotModel& model, const RandomLoading& loading, const fem::Stat
 void RunLoadings(const std::string& name, const RobotDescription& robot, int by_default) {
   RobotModel model(BuildRobotBody(robot));
   fem::StaticState at_rest = model.RestState();
-  const std::vector<CableCommand> slack(static_cast<size_t>(model.CableCount()));
+  const std::vector<ActuatorCommand> slack(static_cast<size_t>(model.ActuatorCount()));
   ASSERT_TRUE(model.Solve(slack, {}, &at_rest).status.ok());
   FrameTracker tracker(model,
                        {.relative_tolerance = kTolerance, .max_exact_steps = kMostExactSteps});

@@ -28,7 +28,7 @@ class BaseOfRobot : public SensitivityCase {
         const double before_m = RestLength_m(robot.body, c);
         pull_m = moved_m(pull_m);
         // The commands count from where they did.
-        if (robot.cables[c].kind == CableCommand::Kind::kDisplacement) {
+        if (robot.cables[c].kind == ActuatorCommand::Kind::kDisplacement) {
           robot.cables[c].value += RestLength_m(robot.body, c) - before_m;
         }
       }

@@ -9,7 +9,7 @@ namespace {
 class CableCommands : public SensitivityCase {
  protected:
   bool Displaced(size_t cable) const {
-    return robot_.cables[cable].kind == CableCommand::Kind::kDisplacement;
+    return robot_.cables[cable].kind == ActuatorCommand::Kind::kDisplacement;
   }
   /// Cables under displacement control that are taut.
   std::vector<int> Driven() const {
@@ -22,7 +22,7 @@ class CableCommands : public SensitivityCase {
   std::vector<int> Pulled() const {
     std::vector<int> pulled;
     for (size_t c = 0; c < robot_.cables.size(); ++c) {
-      if (robot_.cables[c].kind == CableCommand::Kind::kTension) {
+      if (robot_.cables[c].kind == ActuatorCommand::Kind::kTension) {
         pulled.push_back(static_cast<int>(c));
       }
     }

@@ -29,10 +29,10 @@ class FourLegSensitivity : public testing::TestWithParam<CaseKind> {
     robot_.body = BuildRobotBody(description_);
     robot_.body.markers.resize(5);
     const auto displace = [](double value_m) {
-      return CableCommand{CableCommand::Kind::kDisplacement, value_m};
+      return ActuatorCommand{ActuatorCommand::Kind::kDisplacement, value_m};
     };
     const auto pull = [](double value_N) {
-      return CableCommand{CableCommand::Kind::kTension, value_N};
+      return ActuatorCommand{ActuatorCommand::Kind::kTension, value_N};
     };
     robot_.cables = {displace(0.010), displace(0.009), displace(0.010), displace(0.011)};
     if (GetParam().control == Control::kTension) {
@@ -89,7 +89,7 @@ TEST_P(FourLegSensitivity, WeightAndForce) {
 TEST_P(FourLegSensitivity, Drive) {
   const int cable = 1;
   const double command = robot_.cables[1].value;
-  const bool pulled = robot_.cables[1].kind == CableCommand::Kind::kTension;
+  const bool pulled = robot_.cables[1].kind == ActuatorCommand::Kind::kTension;
   const auto taking = [&](double factor) {
     return By([=](RobotCase* robot, double by) { robot->cables[1].value += by * factor; });
   };

@@ -43,9 +43,9 @@ TEST_F(FrictionKey, EquilibriaAreReached) {
   for (const std::string coefficient : {"0.2", "0.6"}) {
     const auto rubbing = Build(TextWith(coefficient));
     const auto smooth = Build(FullRobotText());
-    const std::vector<std::vector<CableCommand>> commands{
+    const std::vector<std::vector<ActuatorCommand>> commands{
         {Displace(0.004), Displace(0.002)}, {Displace(0.010), {}}, {Pull(0.8), Displace(0.003)}};
-    for (const std::vector<CableCommand>& cables : commands) {
+    for (const std::vector<ActuatorCommand>& cables : commands) {
       fem::StaticState state = rubbing->RestState();
       fem::StaticState without = smooth->RestState();
       const fem::StaticResult result = rubbing->Solve(cables, {}, &state);

@@ -12,8 +12,8 @@ class Guide : public SensitivityCase {
   /// What the drive takes in where it keeps the zero of the unchanged robot: its command counts
   /// from there, the model's from the changed robot.
   void KeepZero(int cable, RobotCase* changed) const {
-    CableCommand& command = changed->cables[static_cast<size_t>(cable)];
-    if (command.kind != CableCommand::Kind::kDisplacement) return;
+    ActuatorCommand& command = changed->cables[static_cast<size_t>(cable)];
+    if (command.kind != ActuatorCommand::Kind::kDisplacement) return;
     const auto c = static_cast<size_t>(cable);
     command.value += RestLength_m(changed->body, c) - RestLength_m(robot_.body, c);
   }

@@ -53,7 +53,7 @@ TEST_P(MovedEyelets, MakeTheModelOfARobotThatHasThemThere) {
       MoveEyelet(locator, there.scale, e, moved_m, &there.cables[static_cast<size_t>(c)]);
     }
     const RobotModel built(there);
-    EXPECT_LT((moved.cable_rest_length_m() - built.cable_rest_length_m()).norm(), 1e-14);
+    EXPECT_LT((moved.actuator_rest_m() - built.actuator_rest_m()).norm(), 1e-14);
     Eigen::VectorXd x_m = moved.RestState().x_m;
     for (double& coordinate : x_m) coordinate += 0.1 * off_m(random);
     for (int c = 0; c < moved.CableCount(); ++c) {
@@ -84,12 +84,12 @@ TEST_P(MovedEyelets, AreSolvedAsARobotThatHasThemThere) {
 TEST_P(MovedEyelets, BeyondTheirRoomStayWhereTheyAre) {
   RobotModel model(WithRoom().body);
   const Eigen::Vector3d before_m = model.body().cables[0].eyelets[1].rest_m;
-  const double rest_length_m = model.cable_rest_length_m()[0];
+  const double rest_length_m = model.actuator_rest_m()[0];
   const Status status = model.MoveEyelet(0, 1, Eigen::Vector3d(0.05, 0.0, 0.0));
   EXPECT_EQ(status.code(), StatusCode::kInvalidInput);
   EXPECT_THAT(status.message(), testing::HasSubstr("more than the model has room for"));
   EXPECT_EQ(model.body().cables[0].eyelets[1].rest_m, before_m);
-  EXPECT_EQ(model.cable_rest_length_m()[0], rest_length_m);
+  EXPECT_EQ(model.actuator_rest_m()[0], rest_length_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(SoftBeam, MovedEyelets,

@@ -94,7 +94,7 @@ TEST(PointSensitivity, RefusesCablesThatActAlike) {
   RobotCase robot = SoftBeam({fem::ElementType::kTet4, Control::kTension});
   robot.body.cables[1] = robot.body.cables[0];
   const Balance balance = Solve(robot);
-  const CableCommand hold{CableCommand::Kind::kDisplacement, 0.0};
+  const ActuatorCommand hold{ActuatorCommand::Kind::kDisplacement, 0.0};
   PointSensitivity adjoint(*balance.model, MarkersOf(robot.body));
   EXPECT_EQ(adjoint.Compute({hold, hold, {}}, balance.state, Many(robot.body)).code(),
             StatusCode::kUnobservable);

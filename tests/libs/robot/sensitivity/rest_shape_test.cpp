@@ -32,8 +32,9 @@ class RestShapeOfRobot : public SensitivityCase {
       RobotCase robot = robot_;
       robot.body.mesh.nodes_m.reshaped() += by * mode;
       for (size_t c = 0; c < 3; ++c) {
-        CableCommand& command = robot.cables[c];
-        if (command.kind != CableCommand::Kind::kDisplacement || zero != CableZero::kKept) continue;
+        ActuatorCommand& command = robot.cables[c];
+        if (command.kind != ActuatorCommand::Kind::kDisplacement || zero != CableZero::kKept)
+          continue;
         command.value += RestLength_m(robot.body, c) - RestLength_m(robot_.body, c);
       }
       const Eigen::VectorXd density_kg_m3 =

@@ -16,11 +16,13 @@ namespace {
 
 constexpr double kGuideRadius_m = 0.0015;
 
-std::vector<CableCommand> Commands(Control control) {
+std::vector<ActuatorCommand> Commands(Control control) {
   const auto displace = [](double value) {
-    return CableCommand{CableCommand::Kind::kDisplacement, value};
+    return ActuatorCommand{ActuatorCommand::Kind::kDisplacement, value};
   };
-  const auto pull = [](double value) { return CableCommand{CableCommand::Kind::kTension, value}; };
+  const auto pull = [](double value) {
+    return ActuatorCommand{ActuatorCommand::Kind::kTension, value};
+  };
   switch (control) {
     case Control::kDisplacement: return {displace(0.005), displace(0.007), displace(0.006)};
     case Control::kTension: return {pull(0.5), pull(0.3), pull(0.4)};
@@ -111,7 +113,7 @@ Balance Solve(const RobotCase& robot, const fem::StaticState* start) {
   balance.model = std::make_unique<RobotModel>(
       robot.body,
       fem::StaticSettings{.relative_tolerance = 1e-13, .constraint_tolerance_m = 1e-14});
-  for (int c = 0; c < balance.model->CableCount(); ++c) {
+  for (int c = 0; c < balance.model->ActuatorCount(); ++c) {
     balance.model->SetCableFriction(c, robot.friction[static_cast<size_t>(c)]);
     balance.model->SetCableCompliance(c, robot.compliance_m_N[c]);
   }
@@ -135,9 +137,9 @@ Eigen::VectorXd Balance::Points_m() const {
 }
 
 Eigen::VectorXd Balance::Lengths_m() const {
-  Eigen::VectorXd lengths_m(model->CableCount());
-  for (int c = 0; c < model->CableCount(); ++c) {
-    lengths_m[c] = model->StateOfCable(c, state).length_m;
+  Eigen::VectorXd lengths_m(model->ActuatorCount());
+  for (int c = 0; c < model->ActuatorCount(); ++c) {
+    lengths_m[c] = model->StateOfActuator(c, state).length_m;
   }
   return lengths_m;
 }
@@ -167,7 +169,7 @@ void ExpectDerivative(const RobotCase& robot, ParameterPtr parameter, const Chan
   Balance balance = Solve(robot);
   for (size_t c = 0; c < robot.cables.size(); ++c) {
     const bool slack = balance.Tensions_N()[static_cast<Eigen::Index>(c)] == 0.0;
-    ASSERT_EQ(slack, robot.cables[c].kind == CableCommand::Kind::kDisplacement &&
+    ASSERT_EQ(slack, robot.cables[c].kind == ActuatorCommand::Kind::kDisplacement &&
                          robot.cables[c].value < 0.0)
         << "cable " << c;
   }

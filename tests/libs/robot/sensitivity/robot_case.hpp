@@ -20,7 +20,7 @@ namespace palpate::robot {
 /// A robot with everything that loads it: what parameters change.
 struct RobotCase {
   RobotBody body;
-  std::vector<CableCommand> cables;
+  std::vector<ActuatorCommand> cables;
   std::vector<DeadLoad> loads;
   Eigen::VectorXd held_motion_m;        ///< [3n] of held nodes, from their rest positions
   std::vector<CableFriction> friction;  ///< [cables]

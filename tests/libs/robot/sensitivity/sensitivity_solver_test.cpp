@@ -78,7 +78,7 @@ TEST_P(SolverOfSensitivities, ACableKeepsWhatItsDriveKeeps) {
   for (int c = 0; c < 3; ++c) {
     const bool taut = balance.Tensions_N()[c] > 0.0;
     const bool displaced =
-        robot_.cables[static_cast<size_t>(c)].kind == CableCommand::Kind::kDisplacement;
+        robot_.cables[static_cast<size_t>(c)].kind == ActuatorCommand::Kind::kDisplacement;
     for (const int p : {0, 2, 3, 5}) {
       if (taut && displaced) {
         EXPECT_NEAR(solver.length_m()(c, p), 0.0, 1e-12);
@@ -108,7 +108,7 @@ TEST(SensitivitySolver, RefusesCablesThatActAlike) {
   robot.body.cables[1] = robot.body.cables[0];
   const Balance balance = Solve(robot);
   SensitivitySolver solver(*balance.model);
-  const CableCommand hold{CableCommand::Kind::kDisplacement, 0.0};
+  const ActuatorCommand hold{ActuatorCommand::Kind::kDisplacement, 0.0};
   std::vector<ParameterPtr> parameters;
   parameters.push_back(YoungsModulus(0));
   EXPECT_EQ(solver.Compute({hold, hold, {}}, balance.state, parameters).code(),
@@ -132,7 +132,7 @@ TEST(SensitivitySolver, ACableAtItsTensionLimitKeepsItsTension) {
   robot.body.cables[0].max_tension_N = robot.cables[0].value;
   Balance balance = Solve(robot);
   const Derivative by_tension = Differentiate(balance, robot, YoungsModulus(0));
-  robot.cables[0] = {CableCommand::Kind::kDisplacement, 0.1};
+  robot.cables[0] = {ActuatorCommand::Kind::kDisplacement, 0.1};
   const Derivative at_limit = Differentiate(balance, robot, YoungsModulus(0));
   EXPECT_EQ(at_limit.tensions_N[0], 0.0);
   EXPECT_NE(at_limit.lengths_m[0], 0.0);
