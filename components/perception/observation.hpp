@@ -50,12 +50,16 @@ struct DetectedContact {
   int frames_seen = 0;  ///< in a row
 };
 
-/// Result of perception for one frame.
-struct Observation {
-  std::int64_t stamp_ns = 0;  ///< of the frame
+/// What one camera shows in a frame.
+struct CameraView {
   SegmentedFrame frame;
+  FiducialFrame markers;  ///< kNotRun where Config::markers has no colour
+};
+
+/// Result of perception for one frame.
+struct Observation : CameraView {
+  std::int64_t stamp_ns = 0;              ///< of the frame
   std::vector<DetectedContact> contacts;  ///< by rising number
-  FiducialFrame markers;                  ///< kNotRun where Config::markers has no colour
 };
 
 }  // namespace palpate::perception

@@ -55,4 +55,10 @@ class VirtualCamera {
   std::unique_ptr<Parts> parts_;
 };
 
+/// The scenario's camera and its further ones, in this order, each with noise and bias of its own.
+/// Effects act on the first.
+std::vector<std::unique_ptr<VirtualCamera>> MakeCameras(
+    const scenario::Scenario& scenario, const RobotSurface& robot_surface,
+    const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed);
+
 }  // namespace palpate::virtual_camera

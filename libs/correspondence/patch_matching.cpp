@@ -29,19 +29,19 @@ double SightWeight(double cosine) {
 
 void PatchMatching::Match(const rgbd::SensedCloud& cloud, const Eigen::Isometry3d& T_robot_camera,
                           const MovingSurface& surface, const PredictedView& view,
-                          const MatchDistances& distances, std::vector<FeatureMatch>* matches) {
+                          const MatchDistances& distances, std::span<FeatureMatch> matches) {
   coefficient_.assign(static_cast<size_t>(surface.vertices_m().cols()), Eigen::Vector3d::Zero());
-  outlier_height_m_.assign(matches->size(), 0.0);
+  outlier_height_m_.assign(matches.size(), 0.0);
   Land(cloud, surface, view, distances, matches);
   SortByFeature();
   for (int feature = 0; feature < features_.Count(); ++feature) {
-    Conclude(feature, T_robot_camera, surface, &(*matches)[At(feature)]);
+    Conclude(feature, T_robot_camera, surface, &matches[At(feature)]);
   }
 }
 
 void PatchMatching::Land(const rgbd::SensedCloud& cloud, const MovingSurface& surface,
                          const PredictedView& view, const MatchDistances& distances,
-                         std::vector<FeatureMatch>* matches) {
+                         std::span<FeatureMatch> matches) {
   landings_.clear();
   for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
     const Eigen::Vector3d point_m = cloud.points_m.col(k).cast<double>();
@@ -54,7 +54,7 @@ void PatchMatching::Land(const rgbd::SensedCloud& cloud, const MovingSurface& su
     if (weight <= 0.0) continue;
     const int feature = features_.FeatureOfTriangle(foot.triangle);
     if (foot.distance_m > distances.outlier_m) {
-      ++(*matches)[At(feature)].outliers;
+      ++matches[At(feature)].outliers;
       outlier_height_m_[At(feature)] += foot.distance_m;
       continue;
     }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 #include "libs/correspondence/feature_match.hpp"
@@ -28,10 +29,10 @@ class PatchMatching {
  public:
   explicit PatchMatching(const SurfaceFeatures& features) : features_(features) {}
 
-  /// `surface` is where the model is, `view` what is seen of it.
+  /// `surface` is where the model is, `view` what is seen of it. `matches`: [features].
   void Match(const rgbd::SensedCloud& cloud, const Eigen::Isometry3d& T_robot_camera,
              const MovingSurface& surface, const PredictedView& view,
-             const MatchDistances& distances, std::vector<FeatureMatch>* matches);
+             const MatchDistances& distances, std::span<FeatureMatch> matches);
 
  private:
   /// A cloud point on the surface. Camera frame.
@@ -44,7 +45,7 @@ class PatchMatching {
   };
 
   void Land(const rgbd::SensedCloud& cloud, const MovingSurface& surface, const PredictedView& view,
-            const MatchDistances& distances, std::vector<FeatureMatch>* matches);
+            const MatchDistances& distances, std::span<FeatureMatch> matches);
   void SortByFeature();
   void Conclude(int feature, const Eigen::Isometry3d& T_robot_camera, const MovingSurface& surface,
                 FeatureMatch* match);

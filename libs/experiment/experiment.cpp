@@ -10,6 +10,7 @@
 #include "libs/core/config_reader.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/experiment/yaml_values.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -143,6 +144,8 @@ const KeyTable& ExperimentKeys() {
            "camera. Images and clouds are always in the camera's."},
           {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
            "Pose of the depth camera: p_robot = T p_camera. Absent: unknown."},
+          {"cameras", value::ListOfMaps(CameraSettingsKeys()), kOptional,
+           "Depth cameras beside the first one, whose images lie in `cameras/<name>/`."},
           {"markers_sigma_m", value::Either({value::Real(kPositive), value::Vector3(kPositive)}),
            kOptional,
            "Standard deviation of the noise of a marker: one number, or `[x, y, z]` in the "
@@ -170,6 +173,9 @@ Experiment ReadExperimentSettings(const fs::path& file, const ConfigLoader& load
   }
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
     experiment.T_robot_camera = geometry::ReadMeasuredPose(*node, &experiment.T_robot_camera_error);
+  }
+  if (const ConfigNode* node = reader.Optional("cameras")) {
+    experiment.cameras = ReadCameraSettings(*node);
   }
   if (const ConfigNode* node = reader.Optional("markers_sigma_m")) {
     experiment.markers_sigma_m = ReadSigma(*node);
@@ -202,6 +208,7 @@ void WriteExperimentSettings(const Experiment& experiment, const fs::path& file)
             geometry::FormatPose(*experiment.T_robot_camera, experiment.T_robot_camera_error) +
             "\n";
   }
+  text += FormatCameraSettings(experiment.cameras);
   if (experiment.markers_sigma_m) {
     text += "markers_sigma_m: " + geometry::FormatVector(*experiment.markers_sigma_m) + "\n";
   }

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <system_error>
 
 #include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/experiment/folders.hpp"
 
@@ -12,6 +15,23 @@ namespace palpate::experiment {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Settings of a camera that no recording has are those of another one, misspelt.
+void RefuseUnknownCameras(const Experiment& experiment) {
+  const std::vector<std::string> names = FurtherCameras(experiment);
+  const auto check = [&](const std::vector<CameraSettings>& cameras, const fs::path& file) {
+    for (const CameraSettings& camera : cameras) {
+      if (std::find(names.begin(), names.end(), camera.name) != names.end()) continue;
+      throw InputError(SourceLocation{file.string()},
+                       "key 'cameras': no recording has a folder cameras/" + camera.name +
+                           DidYouMean(camera.name, names));
+    }
+  };
+  check(experiment.cameras, experiment.folder / "experiment.yaml");
+  for (const Recording& recording : experiment.recordings) {
+    check(recording.camera_settings, recording.folder / "recording.yaml");
+  }
+}
 
 Experiment ReadWholeExperiment(const fs::path& folder, const ConfigLoader& load) {
   Experiment experiment = ReadExperimentSettings(folder / "experiment.yaml", load);
@@ -25,6 +45,7 @@ Experiment ReadWholeExperiment(const fs::path& folder, const ConfigLoader& load)
   if (experiment.recordings.empty()) {
     throw InputError(SourceLocation{recordings.string()}, "holds no recording");
   }
+  RefuseUnknownCameras(experiment);
   return experiment;
 }
 

@@ -68,6 +68,24 @@ struct StampedFile {
   double t_s() const { return NsToSeconds(t_ns); }
 };
 
+/// What is known of a camera beside the first, in experiment.yaml or recording.yaml.
+struct CameraSettings {
+  std::string name;
+  std::optional<Eigen::Isometry3d> T_robot_camera;
+  std::optional<geometry::PoseStandardError> T_robot_camera_error;
+  std::optional<double> clock_offset_s;  ///< its stamps less the clock of t_s
+};
+
+/// What a camera beside the first recorded: the folder cameras/<name>/ of a recording.
+struct CameraFiles {
+  std::string name;
+  std::filesystem::path folder;
+  std::vector<StampedFile> depth_images;  ///< by rising time on its own clock, as the next two
+  std::vector<StampedFile> color_images;
+  std::vector<StampedFile> clouds;
+  std::optional<std::filesystem::path> camera_file;  ///< camera.yaml
+};
+
 /// One folder of recordings/: recording.yaml and the tables beside it. Missing tables are nullopt
 /// or empty; whatever is there was read and checked as a whole.
 struct Recording {
@@ -91,6 +109,8 @@ struct Recording {
   std::vector<StampedFile> color_images;
   std::vector<StampedFile> clouds;
   std::optional<std::filesystem::path> camera_file;  ///< camera.yaml
+  std::vector<CameraFiles> cameras;                  ///< beside the first, by name
+  std::vector<CameraSettings> camera_settings;       ///< `cameras`; wins over the experiment's
 };
 
 /// Rotation R = Ry(b) Rx(a) of the base, identity without a tilt. Gravity in the robot frame, which

@@ -7,6 +7,7 @@
 
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/experiment/folders.hpp"
 #include "libs/experiment/recording.hpp"
 #include "libs/experiment/recording_settings.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kKnownEntries = {"recording.yaml", "actuation.csv", "markers.csv",
                                                 "loads.csv",      "camera.yaml",   "depth",
-                                                "color",          "clouds"};
+                                                "color",          "clouds",        "cameras"};
 
 // A misspelt table would otherwise be taken for an absent one. Other files are ignored.
 void RefuseMisspeltEntries(const fs::path& folder) {
@@ -66,6 +67,50 @@ void CopyFiles(const std::vector<StampedFile>& files, const fs::path& folder) {
   }
 }
 
+/// The images and clouds of a camera, which lie in `folder`.
+struct ImageFiles {
+  std::vector<StampedFile> depth;
+  std::vector<StampedFile> color;
+  std::vector<StampedFile> clouds;
+  std::optional<fs::path> camera_file;
+};
+
+ImageFiles ListImages(const fs::path& folder, const std::optional<double>& frame_rate_Hz) {
+  const auto list = [&](const char* images, const std::vector<std::string>& extensions) {
+    return ListStampedFiles(
+        folder / images,
+        {.extensions = extensions, .skip_others = false, .frame_rate_Hz = frame_rate_Hz});
+  };
+  ImageFiles files{.depth = list("depth", {".png"}),
+                   .color = list("color", {".png", ".jpg", ".jpeg"}),
+                   .clouds = list("clouds", {".pcd", ".ply"}),
+                   .camera_file = {}};
+  if (const fs::path file = folder / "camera.yaml"; fs::exists(file)) files.camera_file = file;
+  return files;
+}
+
+std::vector<CameraFiles> ListCameras(const fs::path& folder,
+                                     const std::optional<double>& frame_rate_Hz) {
+  std::vector<CameraFiles> cameras;
+  if (!fs::is_directory(folder)) return cameras;
+  for (const fs::path& entry : EntriesOf(folder)) {
+    if (!fs::is_directory(entry)) continue;
+    const std::string name = NameOf(entry);
+    if (!IsCameraName(name)) {
+      throw InputError(SourceLocation{entry.string()},
+                       "is no name of a camera: letters, digits and '_', a letter first");
+    }
+    ImageFiles files = ListImages(entry, frame_rate_Hz);
+    cameras.push_back({.name = name,
+                       .folder = entry,
+                       .depth_images = std::move(files.depth),
+                       .color_images = std::move(files.color),
+                       .clouds = std::move(files.clouds),
+                       .camera_file = std::move(files.camera_file)});
+  }
+  return cameras;
+}
+
 }  // namespace
 
 std::vector<StampedFile> ListClouds(const fs::path& folder) {
@@ -92,17 +137,12 @@ Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
   if (const fs::path file = folder / "loads.csv"; fs::exists(file)) {
     recording.loads = ReadLoads(file);
   }
-  if (const fs::path file = folder / "camera.yaml"; fs::exists(file)) {
-    recording.camera_file = file;
-  }
-  const auto list = [&](const char* images, const std::vector<std::string>& extensions) {
-    return ListStampedFiles(
-        folder / images,
-        {.extensions = extensions, .skip_others = false, .frame_rate_Hz = frame_rate_Hz});
-  };
-  recording.depth_images = list("depth", {".png"});
-  recording.color_images = list("color", {".png", ".jpg", ".jpeg"});
-  recording.clouds = list("clouds", {".pcd", ".ply"});
+  ImageFiles images = ListImages(folder, frame_rate_Hz);
+  recording.depth_images = std::move(images.depth);
+  recording.color_images = std::move(images.color);
+  recording.clouds = std::move(images.clouds);
+  recording.camera_file = std::move(images.camera_file);
+  recording.cameras = ListCameras(folder / "cameras", frame_rate_Hz);
   CheckWindows(recording, settings);
   return recording;
 }
@@ -120,6 +160,14 @@ void WriteRecording(const Recording& recording, const fs::path& folder) {
   CopyFiles(recording.depth_images, folder / "depth");
   CopyFiles(recording.color_images, folder / "color");
   CopyFiles(recording.clouds, folder / "clouds");
+  for (const CameraFiles& camera : recording.cameras) {
+    const fs::path of_camera = folder / "cameras" / camera.name;
+    CreateFolder(of_camera);
+    if (camera.camera_file) CopyFile(*camera.camera_file, of_camera / "camera.yaml");
+    CopyFiles(camera.depth_images, of_camera / "depth");
+    CopyFiles(camera.color_images, of_camera / "color");
+    CopyFiles(camera.clouds, of_camera / "clouds");
+  }
   // Last, because it is what makes the folder a recording.
   WriteFile(folder / "recording.yaml", FormatRecordingSettings(recording));
 }

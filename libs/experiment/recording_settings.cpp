@@ -4,6 +4,7 @@
 #include "libs/experiment/recording_settings.hpp"
 
 #include "libs/core/config_reader.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/experiment/yaml_values.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -62,6 +63,8 @@ const KeyTable& RecordingKeys() {
           {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
            "Pose of the depth camera during this recording. Absent: that of experiment.yaml, "
            "or unknown for `kind: camera_moved`."},
+          {"cameras", value::ListOfMaps(CameraSettingsKeys()), kOptional,
+           "What differs in this recording of cameras beside the first one."},
           {"reference", value::Map(ReferenceKeys()), kOptional,
            "Window from which marker displacements count. Absent: markers are positions."},
           {"steady_window_s", value::Numbers({}, 2, 2), kOptional,
@@ -89,6 +92,9 @@ std::optional<double> ReadRecordingSettings(const std::filesystem::path& file,
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
     recording.T_robot_camera = geometry::ReadMeasuredPose(*node, &recording.T_robot_camera_error);
   }
+  if (const ConfigNode* node = reader.Optional("cameras")) {
+    recording.camera_settings = ReadCameraSettings(*node);
+  }
   if (const ConfigNode* node = reader.Optional("reference")) {
     recording.reference = ReadReference(*node);
   }
@@ -113,6 +119,7 @@ std::string FormatRecordingSettings(const Recording& recording) {
     text += "T_robot_camera: " +
             geometry::FormatPose(*recording.T_robot_camera, recording.T_robot_camera_error) + "\n";
   }
+  text += FormatCameraSettings(recording.camera_settings);
   if (recording.reference) {
     const bool undeformed = recording.reference->shape == ReferenceShape::kUndeformed;
     text += "reference: {window_s: " + FormatWindow(recording.reference->window_s) +

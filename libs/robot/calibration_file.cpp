@@ -3,6 +3,9 @@
 
 #include "libs/robot/calibration_file.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "libs/core/config_reader.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -47,6 +50,17 @@ CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode*
   errors.Read("translation_m", &pose.translation_error_m);
   errors.Finish();
   return pose;
+}
+
+CalibratedCamera ReadCamera(const ConfigNode& node) {
+  MapReader map(node, CalibratedCameraKeys());
+  CalibratedCamera camera;
+  map.Read("name", &camera.name);
+  const ConfigNode& pose = map.Require("T_robot_camera");
+  camera.pose = ReadCalibratedPose(pose, map.Optional("T_robot_camera_standard_error"));
+  if (const ConfigNode* bias = map.Optional("depth_bias")) camera.depth_bias = ReadDepthBias(*bias);
+  map.Finish();
+  return camera;
 }
 
 CalibratedDrive ReadDrive(const ConfigNode& node) {
@@ -132,6 +146,27 @@ std::string FormatPoseAndErrors(const CalibratedPose& pose) {
          ", translation_m: " + geometry::FormatVector(pose.translation_error_m) + "}\n";
 }
 
+/// Each line of `text` as one of an item of a list.
+std::string AsItem(const std::string& text) {
+  std::string item;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    item += "    " + text.substr(begin, end - begin);
+    begin = end;
+  }
+  return item;
+}
+
+std::string FormatCameras(const std::vector<CalibratedCamera>& cameras) {
+  if (cameras.empty()) return {};
+  std::string text = "cameras:\n";
+  for (const CalibratedCamera& camera : cameras) {
+    text += "  - name: " + Quoted(camera.name) + "\n" + AsItem(FormatPoseAndErrors(camera.pose));
+    if (camera.depth_bias) text += AsItem(FormatDepthBias(*camera.depth_bias));
+  }
+  return text;
+}
+
 std::string FormatDrives(const std::vector<CalibratedDrive>& drives) {
   if (drives.empty()) return {};
   std::string text = "drives:\n";
@@ -178,6 +213,7 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
     if (!calibration.pose) Refuse(*bias, "needs T_robot_camera, which it was found with");
     calibration.depth_bias = ReadDepthBias(*bias);
   }
+  calibration.cameras = ReadItems(&map, "cameras", ReadCamera);
   calibration.drives = ReadItems(&map, "drives", ReadDrive);
   if (const ConfigNode* scale = map.Optional("geometry_scale")) {
     calibration.geometry_scale = ReadGeometryScale(*scale);
@@ -218,6 +254,7 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   if (calibration.gravity) text += FormatGravity(*calibration.gravity);
   if (calibration.pose) text += FormatPoseAndErrors(*calibration.pose);
   if (calibration.depth_bias) text += FormatDepthBias(*calibration.depth_bias);
+  text += FormatCameras(calibration.cameras);
   text += FormatDrives(calibration.drives);
   text += FormatGeometry(calibration.geometry_scale, calibration.cable_routes);
   text += FormatUndetermined(calibration.undetermined);

@@ -33,6 +33,13 @@ struct CalibratedPose {
   Eigen::Vector3d translation_error_m = Eigen::Vector3d::Zero();
 };
 
+/// A camera beside the first, under the name that it has in the experiment.
+struct CalibratedCamera {
+  std::string name;
+  CalibratedPose pose;
+  std::optional<CalibratedDepthBias> depth_bias;
+};
+
 /// Poisson's ratio estimated from data. `part` as of a modulus.
 struct CalibratedPoissonsRatio {
   std::string part;
@@ -83,6 +90,7 @@ struct CalibrationFile {
   std::optional<CalibratedGravity> gravity;
   std::optional<CalibratedPose> pose;
   std::optional<CalibratedDepthBias> depth_bias;  ///< only where there is a pose
+  std::vector<CalibratedCamera> cameras;          ///< beside the first, by name
   std::vector<CalibratedDrive> drives;
   std::optional<CalibratedScale> geometry_scale;  ///< absent: as large as the robot file says
   std::vector<CalibratedRoute> cable_routes;

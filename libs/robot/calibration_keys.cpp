@@ -78,6 +78,21 @@ const KeyTable& UndeterminedKeys() {
   return keys;
 }
 
+const KeyTable& CalibratedCameraKeys() {
+  static const KeyTable keys{
+      .title = "calibrated camera",
+      .about =
+          "Pose and depth bias of a camera beside the first, with the moduli and drives of "
+          "this file.",
+      .keys = {{"name", value::Text(), kRequired, "Its name in the experiment."},
+               {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kRequired,
+                "Its pose: p_robot = T p_camera."},
+               {"T_robot_camera_standard_error", value::Map(PoseErrorKeys()), kOptional,
+                "Standard errors of the pose, along and about each axis of the robot frame."},
+               {"depth_bias", value::Map(DepthBiasKeys()), kOptional, "Its depth bias."}}};
+  return keys;
+}
+
 const KeyTable& CalibrationFileKeys() {
   static const KeyTable keys{
       .title = "calibration file",
@@ -114,6 +129,8 @@ const KeyTable& CalibrationFileKeys() {
                 "Its standard error of each axis. Absent: its `standard_error`."},
                {"depth_bias", value::Map(DepthBiasKeys()), OnlyFor("`T_robot_camera`"),
                 "Systematic error of the depth, estimated together with the pose."},
+               {"cameras", value::ListOfMaps(CalibratedCameraKeys()), kOptional,
+                "Depth cameras beside the first one."},
                {"drives", value::ListOfMaps(ActuatorKeys()), kOptional,
                 "Offset and gain of the actuators."},
                {"geometry_scale", value::Map(GeometryScaleKeys()), kOptional,

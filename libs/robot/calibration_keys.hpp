@@ -14,5 +14,6 @@ const KeyTable& PoissonsRatioKeys();
 const KeyTable& PoseErrorKeys();
 const KeyTable& ActuatorKeys();
 const KeyTable& UndeterminedKeys();
+const KeyTable& CalibratedCameraKeys();
 
 }  // namespace palpate::robot

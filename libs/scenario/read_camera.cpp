@@ -74,8 +74,10 @@ DepthNoise ReadDepthNoise(const ConfigNode& node) {
   return noise;
 }
 
-CameraSpec ReadCameraSpec(const ConfigNode& node, const ConfigLoader& load) {
-  MapReader reader(node, CameraSpecKeys());
+namespace {
+
+/// The keys that every camera has; `node` is the map of `reader`.
+CameraSpec ReadSpec(const ConfigNode& node, const ConfigLoader& load, MapReader& reader) {
   CameraSpec spec;
   std::filesystem::path file;
   reader.Read("file", &file);
@@ -89,11 +91,38 @@ CameraSpec ReadCameraSpec(const ConfigNode& node, const ConfigLoader& load) {
   spec.T_robot_camera = *pose;
   reader.Read("rate_hz", &spec.rate_hz);
   if (const ConfigNode* noise = reader.Optional("noise")) spec.noise = ReadDepthNoise(*noise);
-  reader.Finish();
   if (spec.noise.sensor == DepthSensor::kStereo && spec.camera.baseline_m == 0.0) {
     Refuse(node, "the noise of a stereo camera needs its 'depth.baseline_m'");
   }
   return spec;
+}
+
+}  // namespace
+
+CameraSpec ReadCameraSpec(const ConfigNode& node, const ConfigLoader& load) {
+  MapReader reader(node, CameraSpecKeys());
+  CameraSpec spec = ReadSpec(node, load, reader);
+  reader.Finish();
+  return spec;
+}
+
+std::vector<FurtherCamera> ReadFurtherCameras(const ConfigNode& node, const ConfigLoader& load) {
+  std::vector<FurtherCamera> cameras;
+  for (const ConfigNode& item : ReadList(node, "{name, ...}")) {
+    MapReader reader(item, FurtherCameraKeys());
+    FurtherCamera camera;
+    reader.Read("name", &camera.name);
+    for (const FurtherCamera& other : cameras) {
+      if (other.name == camera.name)
+        Refuse(item, "the camera '" + camera.name + "' is there twice");
+    }
+    reader.Read("delay_s", &camera.delay_s);
+    reader.Read("clock_offset_s", &camera.clock_offset_s);
+    static_cast<CameraSpec&>(camera) = ReadSpec(item, load, reader);
+    reader.Finish();
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
 }
 
 }  // namespace palpate::scenario

@@ -130,6 +130,10 @@ Scenario ReadScenario(const fs::path& file, const ConfigLoader& load) {
   if (const ConfigNode* node = reader.Optional("camera")) {
     scenario.camera = ReadCameraSpec(*node, load);
   }
+  if (const ConfigNode* node = reader.Optional("cameras")) {
+    if (!scenario.camera) Refuse(*node, "goes with 'camera', the first one");
+    scenario.further_cameras = ReadFurtherCameras(*node, load);
+  }
   if (const ConfigNode* node = reader.Optional("stage")) scenario.stage = ReadStage(*node);
   if (const ConfigNode* node = reader.Optional("markers")) {
     scenario.markers = ReadMarkers(*node, scenario.camera.has_value());

@@ -98,6 +98,13 @@ void CheckAgainst(const Scenario& scenario, const RobotNames& robot) {
   }
 }
 
+Scenario Scenario::WithCamera(std::size_t number) const {
+  Scenario alone = *this;
+  if (number > 0) alone.camera = further_cameras.at(number - 1);
+  alone.further_cameras.clear();
+  return alone;
+}
+
 std::optional<Eigen::Isometry3d> PoseAt(const RecordingPlan& plan, const std::string& tool,
                                         double t_s) {
   const auto path = std::find_if(plan.tool_paths.begin(), plan.tool_paths.end(),

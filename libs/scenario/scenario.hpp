@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -133,6 +134,13 @@ struct CameraSpec {
   DepthNoise noise;
 };
 
+/// A camera beside the first. Effects act on the first alone; noise and bias are its own.
+struct FurtherCamera : CameraSpec {
+  std::string name;             ///< of its folder in a recording
+  double delay_s = 0.0;         ///< of its first frame, since the start of a recording, >= 0
+  double clock_offset_s = 0.0;  ///< its stamps less the time
+};
+
 /// Everything that is drawn and is not the robot or a tool.
 struct Stage {
   double table_height_m = 0.0;  ///< top of the table, robot frame (z up)
@@ -167,6 +175,7 @@ struct Scenario {
   double clutter = 0.0;
   std::vector<Tool> tools;
   std::optional<CameraSpec> camera;  ///< without: no images
+  std::vector<FurtherCamera> further_cameras;  ///< only beside `camera`
   Stage stage;
   std::optional<MarkerSpec> markers;      ///< without: no markers
   double rest_between_s = 1.0;            ///< between recordings, commands at zero
@@ -174,6 +183,8 @@ struct Scenario {
 
   const Tool& ToolNamed(const std::string& name) const;
   bool TakesPictures() const { return camera && !(markers && markers->by_depth_camera); }
+  /// The scenario with the camera of that number as its only one; 0: `camera`.
+  Scenario WithCamera(std::size_t number) const;
 };
 
 /// Reads strictly: unknown keys, wrong units, a tool, cable or effect that does not exist are

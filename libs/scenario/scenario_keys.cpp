@@ -218,6 +218,23 @@ const KeyTable& CameraSpecKeys() {
   return keys;
 }
 
+const KeyTable& FurtherCameraKeys() {
+  static const KeyTable keys = [] {
+    const FurtherCamera defaults;
+    KeyTable table{.title = "further camera",
+                   .about = "A camera beside `camera`, with the keys of that one.",
+                   .keys = {{"name", value::Text(), kRequired,
+                             "Name of its folder in a recording (docs/experiment.md)."},
+                            {"delay_s", value::Real(kNonNegative), Default(defaults.delay_s),
+                             "Time of its first frame in a recording."},
+                            {"clock_offset_s", value::Real(), Default(defaults.clock_offset_s),
+                             "Its stamps less the time."}}};
+    for (const Key& key : CameraSpecKeys().keys) table.keys.push_back(key);
+    return table;
+  }();
+  return keys;
+}
+
 const KeyTable& StageKeys() {
   const Stage defaults;
   static const KeyTable keys{
@@ -356,6 +373,8 @@ const KeyTable& ScenarioKeys() {
            "catalogue, in its tolerances. 0: exactly as the robot file says."},
           {"tools", value::ListOfMaps(ToolKeys()), kOptional, "Tools. Absent: none."},
           {"camera", value::Map(CameraSpecKeys()), kOptional, "Camera. Absent: no images."},
+          {"cameras", value::ListOfMaps(FurtherCameraKeys()), kOptional,
+           "Cameras beside `camera`. Effects act on that one alone. Absent: none."},
           {"stage", value::Map(StageKeys()), kOptional, "What is drawn besides the robot."},
           {"markers", value::Map(MarkerSpecKeys()), kOptional, "Measured markers. Absent: none."},
           {"rest_between_s", value::Real(kNonNegative), Default(defaults.rest_between_s),

@@ -18,6 +18,7 @@ const KeyTable& MotionKeys();
 const KeyTable& EffectKeys(const EffectKind& kind);
 const KeyTable& ToolKeys();
 const KeyTable& CameraSpecKeys();
+const KeyTable& FurtherCameraKeys();
 const KeyTable& DepthNoiseKeys();
 const KeyTable& StageKeys();
 const KeyTable& MarkerSpecKeys();

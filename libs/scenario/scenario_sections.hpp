@@ -23,6 +23,8 @@ Stage ReadStage(const ConfigNode& node);
 
 /// A `file` in it is read by `load`.
 CameraSpec ReadCameraSpec(const ConfigNode& node, const ConfigLoader& load);
+/// The list `cameras`, beside `camera`.
+std::vector<FurtherCamera> ReadFurtherCameras(const ConfigNode& node, const ConfigLoader& load);
 DepthNoise ReadDepthNoise(const ConfigNode& node);
 
 /// Where a camera is: `T_robot_camera`, or `eye_m` and `target_m`, of the map. Nothing: neither.

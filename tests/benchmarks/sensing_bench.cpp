@@ -26,6 +26,7 @@ namespace {
 using test_support::AccuracySummary;
 using test_support::ContactWish;
 using Eyes = SensingSets::Eyes;
+using Onlooker = SensingSets::Onlooker;
 
 constexpr double kWantedError = 0.1;  ///< of a hidden force
 
@@ -87,22 +88,23 @@ void CountAccuracy(benchmark::State& state, const test_support::Watched& watched
   Count(state, "found_from_N", Median(watched.found_from_N));
 }
 
-/// First part of the names of what these eyes see.
-std::string NameOf(Eyes eyes) {
-  return eyes == Eyes::kIdeal ? "sensing/ideal_perception/" : "sensing/whole/";
+/// First part of the names of what is seen so.
+std::string NameOf(const Onlooker& onlooker) {
+  if (onlooker.cameras == 2) return "sensing/two_cameras/";
+  return onlooker.eyes == Eyes::kIdeal ? "sensing/ideal_perception/" : "sensing/whole/";
 }
 
 /// How a set of contacts is shown.
-using Showing = test_support::Watched (SensingSets::*)(Eyes, const ContactWish&, int);
+using Showing = test_support::Watched (SensingSets::*)(const Onlooker&, const ContactWish&, int);
 
-Benchmark OfTouches(const SharedSets& sets, Eyes eyes, const std::string& name,
+Benchmark OfTouches(const SharedSets& sets, const Onlooker& onlooker, const std::string& name,
                     const ContactWish& wish, int contacts, Showing show = &SensingSets::Touches) {
-  return {.name = NameOf(eyes) + name,
+  return {.name = NameOf(onlooker) + name,
           .measure =
-              [sets, eyes, wish, contacts, show](benchmark::State& state) {
+              [sets, onlooker, wish, contacts, show](benchmark::State& state) {
                 test_support::Watched watched;
                 for ([[maybe_unused]] auto iteration : state) {
-                  watched = (sets->Get().*show)(eyes, wish, contacts);
+                  watched = (sets->Get().*show)(onlooker, wish, contacts);
                 }
                 CountAccuracy(state, watched);
               },
@@ -138,13 +140,13 @@ Benchmark OfBounds(const SharedSets& sets, const std::string& name, const Contac
           .max_repetitions = 1};
 }
 
-Benchmark OfNobody(const SharedSets& sets, Eyes eyes) {
-  return {.name = NameOf(eyes) + "nobody_touches",
+Benchmark OfNobody(const SharedSets& sets, const Onlooker& onlooker) {
+  return {.name = NameOf(onlooker) + "nobody_touches",
           .measure =
-              [sets, eyes](benchmark::State& state) {
+              [sets, onlooker](benchmark::State& state) {
                 SensingSets::Untouched untouched;
                 for ([[maybe_unused]] auto iteration : state) {
-                  untouched = sets->Get().NobodyTouches(eyes);
+                  untouched = sets->Get().NobodyTouches(onlooker);
                 }
                 CountFalseAlarms(state, untouched.alarms.Summary());
                 Count(state, "smallest_force_N", untouched.smallest_force_N);
@@ -153,7 +155,7 @@ Benchmark OfNobody(const SharedSets& sets, Eyes eyes) {
 }
 
 Benchmark OfWeights(const SharedSets& sets, Eyes eyes, const char* name, bool given) {
-  return {.name = NameOf(eyes) + name,
+  return {.name = NameOf({.eyes = eyes}) + name,
           .measure =
               [sets, eyes, given](benchmark::State& state) {
                 std::array<double, kTableWeights_mN.size()> found_N = {};
@@ -182,16 +184,19 @@ std::vector<Block> SensingBlocks() {
         {.heading = "force estimation from depth images: whole sets (their accuracy: below)",
          .benchmarks = {std::move(set)}});
   };
+  const auto add_contacts = [&](const Onlooker& onlooker) {
+    add(OfTouches(sets, onlooker, "one_visible", {.where = Where::kVisible}, size.contacts));
+    add(OfTouches(sets, onlooker, "two_visible", {.where = Where::kVisible, .count = 2}, half));
+    add(OfTouches(sets, onlooker, "one_hidden", {.where = Where::kHidden}, half));
+    add(OfNobody(sets, onlooker));
+  };
   for (const Eyes eyes : {Eyes::kPerception, Eyes::kIdeal}) {
-    add(OfTouches(sets, eyes, "one_visible", {.where = Where::kVisible}, size.contacts));
-    add(OfTouches(sets, eyes, "two_visible", {.where = Where::kVisible, .count = 2}, half));
-    add(OfTouches(sets, eyes, "one_hidden", {.where = Where::kHidden}, half));
-    add(OfNobody(sets, eyes));
+    add_contacts({.eyes = eyes});
     add(OfWeights(sets, eyes, "weights_searched", false));
   }
   add(OfWeights(sets, Eyes::kIdeal, "weights_given", true));
   const auto add_first = [&](const std::string& name, const ContactWish& wish, int contacts) {
-    add(OfTouches(sets, Eyes::kPerception, "first_picture/" + name, wish, contacts,
+    add(OfTouches(sets, {.eyes = Eyes::kPerception}, "first_picture/" + name, wish, contacts,
                   &SensingSets::FirstPictures));
   };
   add_first("one_visible", {.where = Where::kVisible}, size.contacts);
@@ -199,6 +204,7 @@ std::vector<Block> SensingBlocks() {
   add_first("one_hidden", {.where = Where::kHidden}, half);
   add(OfBounds(sets, "one_visible", {.where = Where::kVisible}, size.contacts));
   add(OfBounds(sets, "one_hidden", {.where = Where::kHidden}, half));
+  add_contacts({.eyes = Eyes::kPerception, .cameras = 2});
   return blocks;
 }
 

@@ -36,6 +36,13 @@ std::string KeyOf(const ContactWish& wish, int count) {
          std::to_string(count);
 }
 
+scenario::Scenario ScenarioOf(const SensingSize& size) {
+  scenario::Scenario scenario =
+      size.converged_truth ? test_support::ConvergedBallScenario() : test_support::BallScenario();
+  scenario.further_cameras = test_support::OppositeCamera();
+  return scenario;
+}
+
 double MedianSmallestForce_N(SensingChain& chain) {
   std::vector<double> smallest_N;
   const auto& features = chain.estimator().features();
@@ -51,18 +58,15 @@ double MedianSmallestForce_N(SensingChain& chain) {
 }  // namespace
 
 SensingSets::SensingSets(const SensingSize& size)
-    : size_(size),
-      scene_(FourLegRobot(),
-             size.converged_truth ? test_support::ConvergedBallScenario()
-                                  : test_support::BallScenario(),
-             size.seed) {}
+    : size_(size), scene_(FourLegRobot(), ScenarioOf(size), size.seed) {}
 
-SensingChain& SensingSets::ChainOf(Eyes eyes, bool weights_given) {
-  std::unique_ptr<SensingChain>& chain = chains_[{eyes, weights_given}];
+SensingChain& SensingSets::ChainOf(const Onlooker& onlooker) {
+  std::unique_ptr<SensingChain>& chain = chains_[onlooker];
   if (chain == nullptr) {
     test_support::ChainSettings settings;
-    settings.eyes = eyes;
-    settings.weights_given = weights_given;
+    settings.eyes = onlooker.eyes;
+    settings.cameras = onlooker.cameras;
+    settings.weights_given = onlooker.weights_given;
     chain = std::make_unique<SensingChain>(FourLegRobot(), scene_, settings, size_.seed);
     chain->Learn(kLearningFrames, kPostures, kLargestCable_m);
   }
@@ -84,17 +88,17 @@ const std::vector<SensingSets::Path>& SensingSets::PathsOf(const ContactWish& wi
   return paths;
 }
 
-Watched SensingSets::Touches(Eyes eyes, const ContactWish& wish, int count) {
+Watched SensingSets::Touches(const Onlooker& onlooker, const ContactWish& wish, int count) {
   const std::vector<Path>& paths = PathsOf(wish, count);
-  SensingChain& chain = ChainOf(eyes);
+  SensingChain& chain = ChainOf(onlooker);
   Watched watched;
   for (const Path& path : paths) test_support::Watch(path, {}, scene_, chain, &watched);
   return watched;
 }
 
-Watched SensingSets::FirstPictures(Eyes eyes, const ContactWish& wish, int count) {
+Watched SensingSets::FirstPictures(const Onlooker& onlooker, const ContactWish& wish, int count) {
   const std::vector<Path>& paths = PathsOf(wish, count);
-  SensingChain& chain = ChainOf(eyes);
+  SensingChain& chain = ChainOf(onlooker);
   Watched watched;
   for (const Path& path : paths) {
     scene_.Show(path.back());
@@ -130,8 +134,8 @@ std::vector<test_support::ForceBound> SensingSets::Bounds(const ContactWish& wis
   return all;
 }
 
-SensingSets::Untouched SensingSets::NobodyTouches(Eyes eyes) {
-  SensingChain& chain = ChainOf(eyes);
+SensingSets::Untouched SensingSets::NobodyTouches(const Onlooker& onlooker) {
+  SensingChain& chain = ChainOf(onlooker);
   Untouched untouched;
   scenario::Random random(size_.seed, "hand");
   const SceneState rest = scene_.state();
@@ -155,7 +159,7 @@ std::array<double, kTableWeights_mN.size()> SensingSets::HangWeights(Eyes eyes, 
   std::array<double, kTableWeights_mN.size()> found_N = {};
   constexpr int kSettling = 5;
   constexpr int kMeasured = 10;
-  SensingChain& chain = ChainOf(eyes, given);
+  SensingChain& chain = ChainOf({.eyes = eyes, .weights_given = given});
   for (std::size_t w = 0; w < kTableWeights_mN.size(); ++w) {
     const Path path =
         test_support::HangWeight(scene_, kTip_m, 1e-3 * kTableWeights_mN[w], kTipPatch_m);
@@ -183,7 +187,7 @@ std::array<double, kTableWeights_mN.size()> SensingSets::HangWeights(Eyes eyes, 
 std::vector<PhaseFrame> SensingSets::Frames(int untouched, int contacts) {
   std::vector<PhaseFrame> frames;
   const std::vector<Path>& paths = PathsOf({}, contacts);
-  SensingChain& chain = ChainOf(Eyes::kIdeal);
+  SensingChain& chain = ChainOf({});
   for (int k = 0; k < untouched; ++k) {
     chain.Take();
     frames.push_back({Phase::kUntouched, chain.frame()});

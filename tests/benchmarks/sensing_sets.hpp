@@ -4,11 +4,12 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "components/force_estimation/shape/shape_frame.hpp"
@@ -49,13 +50,24 @@ class SensingSets {
   using Path = std::vector<test_support::SceneState>;
   using Eyes = test_support::ChainSettings::Eyes;
 
+  /// Who looks at the contacts.
+  struct Onlooker {
+    Eyes eyes = Eyes::kIdeal;
+    std::size_t cameras = 1;  ///< of the two that are opposite each other
+    bool weights_given = false;
+
+    auto operator<=>(const Onlooker&) const = default;
+  };
+
   explicit SensingSets(const SensingSize& size);
 
   /// `count` of them, with cables pulled in by up to 3 mm. Throws RunError where there are none.
-  test_support::Watched Touches(Eyes eyes, const test_support::ContactWish& wish, int count);
+  test_support::Watched Touches(const Onlooker& onlooker, const test_support::ContactWish& wish,
+                                int count);
 
   /// The same contacts, each there already in the first picture of a sequence, which has no second.
-  test_support::Watched FirstPictures(Eyes eyes, const test_support::ContactWish& wish, int count);
+  test_support::Watched FirstPictures(const Onlooker& onlooker,
+                                      const test_support::ContactWish& wish, int count);
 
   /// Accuracy bound of each of these contacts' forces, held as long as Touches holds them.
   std::vector<test_support::ForceBound> Bounds(const test_support::ContactWish& wish, int count);
@@ -65,7 +77,7 @@ class SensingSets {
     double smallest_force_N = 0.0;  ///< that would be found, median over the features in view
   };
   /// Half of the frames at rest, half with a hand that comes as near as 8 mm.
-  Untouched NobodyTouches(Eyes eyes);
+  Untouched NobodyTouches(const Onlooker& onlooker);
 
   /// Mean of |F| over the frames for each weight of Table III, N; 0 where it was not found.
   /// `given`: the estimator knows the contact at the tip; else it searches.
@@ -77,13 +89,13 @@ class SensingSets {
 
  private:
   /// Shows the scene at rest.
-  test_support::SensingChain& ChainOf(Eyes eyes, bool weights_given = false);
+  test_support::SensingChain& ChainOf(const Onlooker& onlooker);
   const std::vector<Path>& PathsOf(const test_support::ContactWish& wish, int count);
 
   SensingSize size_;
   test_support::SensingScene scene_;
   std::map<std::string, std::vector<Path>> paths_;
-  std::map<std::pair<Eyes, bool>, std::unique_ptr<test_support::SensingChain>> chains_;
+  std::map<Onlooker, std::unique_ptr<test_support::SensingChain>> chains_;
 };
 
 }  // namespace palpate::benchmarks

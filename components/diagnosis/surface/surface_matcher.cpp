@@ -188,7 +188,7 @@ void SurfaceMatcher::MeasureFeatures(const Eigen::VectorXd& measured_m, double s
   const auto match = [&](const rgbd::SensedCloud& cloud) {
     std::vector<correspondence::FeatureMatch> found(in_frames->size());
     patches_.Match(cloud, Eigen::Isometry3d::Identity(), surface_, view_, {kBeside_m, kFarthest_m},
-                   &found);
+                   found);
     return found;
   };
   const std::vector<correspondence::FeatureMatch> found = match(seen->cloud);

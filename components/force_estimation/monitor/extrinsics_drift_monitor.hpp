@@ -22,6 +22,7 @@ struct DriftReport {
     kNotSeen,  ///< too few frames show the fixed surface lately
   };
   State state = State::kLearning;
+  int camera = 0;                          ///< number of the camera
   Motion motion = Motion::Zero();          ///< of the last second
   Motion standard_error = Motion::Zero();  ///< of that
   /// For the user, where the state is kMoved: how far, and what to do.

@@ -205,8 +205,8 @@ FrameInput ShapeSource::InputOf(Parts parts) const {
   auto& shape = input.frame.emplace<PerceivedShape>();
   shape.perception = parts.report->perception;
   shape.frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
-  shape.frame.cloud = std::move(*parts.cloud);
-  shape.frame.T_robot_camera = *T_robot_camera_;
+  shape.frame.views[0].cloud = std::move(*parts.cloud);
+  shape.frame.views[0].T_robot_camera = *T_robot_camera_;
   shape.frame.epoch = parts.report->origin.epoch;
   shape.frame.contacts = std::move(*parts.contacts);
   return input;

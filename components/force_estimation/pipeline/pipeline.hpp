@@ -21,10 +21,10 @@
 
 namespace palpate::force_estimation {
 
-/// The robot's shape in one frame of a depth camera, as perception has segmented it.
+/// The robot's shape in one frame of the depth cameras, as perception has segmented it.
 struct PerceivedShape {
   ShapeFrame frame;   ///< `untouched`: the frame is known to be contact-free
-  Status perception;  ///< ok: perception found the robot
+  Status perception;  ///< ok: perception found the robot, in the view of a camera at least
   /// Where loads are known to act in this frame; used as contacts where the settings give none.
   std::vector<ContactSite> loads = {};
 };

@@ -20,11 +20,19 @@ constexpr ShapePipelineTuning kShapePipelineTuning;
 
 ShapePipeline::Estimator MakeEstimator(robot::RobotModel& model, const Config& config,
                                        const ShapeConfig& shape,
-                                       const robot::CalibrationFile& calibration) {
+                                       const robot::CalibrationFile& calibration,
+                                       const std::vector<std::string>& cameras) {
   const auto estimator = std::make_shared<ShapeForceEstimator>(
       model, config, shape, robot::RelativeModulusError(calibration));
   if (calibration.depth_bias) {
     estimator->TakeDepthBias(calibration.depth_bias->map, calibration.pose->T_robot_camera);
+  }
+  for (std::size_t k = 0; k < cameras.size(); ++k) {
+    for (const robot::CalibratedCamera& camera : calibration.cameras) {
+      if (camera.name != cameras[k] || !camera.depth_bias) continue;
+      estimator->TakeDepthBias(camera.depth_bias->map, camera.pose.T_robot_camera,
+                               static_cast<int>(k) + 1);
+    }
   }
   return {.update = [estimator](const ShapeFrame& frame) -> const ForceEstimate& {
             return estimator->Update(frame);
@@ -39,9 +47,10 @@ ShapePipeline::Estimator MakeEstimator(robot::RobotModel& model, const Config& c
 }  // namespace
 
 ShapePipeline::ShapePipeline(robot::RobotModel& model, const Config& config,
-                             const ShapeConfig& shape, const robot::CalibrationFile& calibration)
+                             const ShapeConfig& shape, const robot::CalibrationFile& calibration,
+                             const std::vector<std::string>& cameras)
     : ShapePipeline(model.body(), ParseContactSites(config.contacts), shape.untouched_frames,
-                    MakeEstimator(model, config, shape, calibration)) {}
+                    MakeEstimator(model, config, shape, calibration, cameras)) {}
 
 ShapePipeline::ShapePipeline(const robot::RobotBody& body, std::vector<ContactSite> contacts,
                              int contact_free_frames, Estimator estimator)
@@ -61,7 +70,7 @@ const PipelineResult& ShapePipeline::Update(PipelineFrame frame) {
   result_.gap = gap_.Measure(estimator_.features(), result_.estimate.status);
   PredictShape();
   KeepReasonOfPerception();
-  result_.drift = drift_monitor_.report();
+  result_.drift = WorstDrift();
   result_.gap_so_far = residual_monitor_.report();
   return result_;
 }
@@ -100,8 +109,22 @@ void ShapePipeline::Monitor() {
   const double since_s = frame.t_s - drift_measured_s_;
   if (since_s >= 0.0 && since_s < kShapePipelineTuning.drift_period_s) return;
   drift_measured_s_ = frame.t_s;
-  drift_monitor_.Add(frame.t_s,
-                     SeeMotion(fixed_region_, frame.cloud, frame.T_robot_camera, nodes_m_));
+  drift_monitors_.resize(std::max(drift_monitors_.size(), frame.views.size()));
+  for (std::size_t k = 0; k < frame.views.size(); ++k) {
+    const auto& [cloud, T_robot_camera] = frame.views[k];
+    drift_monitors_[k].Add(frame.t_s, SeeMotion(fixed_region_, cloud, T_robot_camera, nodes_m_));
+  }
+}
+
+/// Of the first camera that has moved, else of the first.
+DriftReport ShapePipeline::WorstDrift() const {
+  if (drift_monitors_.empty()) return {};
+  for (std::size_t k = 0; k < drift_monitors_.size(); ++k) {
+    DriftReport report = drift_monitors_[k].report();
+    report.camera = static_cast<int>(k);
+    if (report.state == DriftReport::State::kMoved) return report;
+  }
+  return drift_monitors_.front().report();
 }
 
 Eigen::Matrix3Xf ShapePipeline::PredictedNodes_m() const {

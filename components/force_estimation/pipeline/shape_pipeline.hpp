@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "components/force_estimation/config.hpp"
@@ -17,7 +18,7 @@
 
 namespace palpate::force_estimation {
 
-/// Forces from the robot's shape in the frames of a depth camera, in five steps:
+/// Forces from the robot's shape in the frames of one or more depth cameras, in five steps:
 ///
 /// 1. The first `ShapeConfig::untouched_frames` frames in which perception found the robot count as
 ///    contact-free: the depth bias is estimated from them.
@@ -36,11 +37,13 @@ class ShapePipeline : public Pipeline {
   };
 
   /// `model`, to which `calibration` was applied, must outlive the pipeline. Of the calibration the
-  /// errors of the moduli and the depth bias count. `shape.untouched_frames` may be 0: then only
+  /// errors of the moduli and the depth biases count. `cameras`: names of the cameras beside the
+  /// first, in the order of a frame's views. `shape.untouched_frames` may be 0: then only
   /// frames with `untouched` are contact-free. Throws InputError for settings that do not fit the
   /// robot, and for a robot without feature points.
   ShapePipeline(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
-                const robot::CalibrationFile& calibration);
+                const robot::CalibrationFile& calibration,
+                const std::vector<std::string>& cameras = {});
   /// `contacts`: given by the settings. `body` must outlive the pipeline.
   ShapePipeline(const robot::RobotBody& body, std::vector<ContactSite> contacts,
                 int contact_free_frames, Estimator estimator);
@@ -64,6 +67,7 @@ class ShapePipeline : public Pipeline {
   void AddKnownContacts();
   void PredictShape();
   void KeepReasonOfPerception();
+  DriftReport WorstDrift() const;
 
   std::vector<ContactSite> contacts_;
   int contact_free_frames_;
@@ -72,8 +76,8 @@ class ShapePipeline : public Pipeline {
   FeatureGapMeter gap_;
   ModelResidualMonitor residual_monitor_;
   FixedSurfaceRegion fixed_region_;
-  ExtrinsicsDriftMonitor drift_monitor_;
-  double drift_measured_s_;  ///< time of the last frame that drift_monitor_ has
+  std::vector<ExtrinsicsDriftMonitor> drift_monitors_;  ///< of each camera
+  double drift_measured_s_;  ///< time of the last frame that drift_monitors_ have
   int frames_with_robot_ = 0;
   Eigen::VectorXd nodes_m_;  ///< [3n] predicted, rounded to single precision
   PerceivedShape shape_;     ///< of the last frame

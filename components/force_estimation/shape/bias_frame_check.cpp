@@ -13,7 +13,7 @@
 namespace palpate::force_estimation {
 
 void BiasFrameCheck::Add(const DepthBias& bias, std::uint32_t epoch,
-                         const std::vector<correspondence::FeatureMatch>& matches,
+                         std::span<const correspondence::FeatureMatch> matches,
                          const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_robot_camera) {
   Sequence& sequence = sequences_[epoch];
   bool is_matched = false;

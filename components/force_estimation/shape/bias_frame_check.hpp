@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "components/force_estimation/shape/depth_bias.hpp"
@@ -46,7 +47,7 @@ class BiasFrameCheck {
 
   /// As DepthBias::Learn, of `bias`, whose prior counts.
   void Add(const DepthBias& bias, std::uint32_t epoch,
-           const std::vector<correspondence::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
+           std::span<const correspondence::FeatureMatch> matches, const Eigen::VectorXd& x_m,
            const Eigen::Isometry3d& T_robot_camera);
 
   /// The verdict on each sequence, by rising epoch. The sequence that fits the others least is

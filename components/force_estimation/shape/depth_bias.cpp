@@ -117,7 +117,7 @@ double DepthBias::PriorResidual_m(const correspondence::FeatureMatch& match,
          SharedBasis(match, T_robot_camera).dot(prior_mean_);
 }
 
-void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
+void DepthBias::Learn(std::span<const correspondence::FeatureMatch> matches,
                       const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_robot_camera,
                       std::uint32_t sequence) {
   PALPATE_CHECK(static_cast<int>(matches.size()) == feature_count_, matches.size());

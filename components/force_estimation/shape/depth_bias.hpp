@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "components/force_estimation/shape/shape_config.hpp"
@@ -31,11 +32,11 @@ struct DepthBiasTuning {
   int posture_errors = 20;
 };
 
-/// Constant difference of cloud and model without contact: a depth bias of low order over the image
-/// (a share of z), a small error of the camera pose, and an offset of each surface point (facets of
-/// the mesh, texture). One linear least-squares problem with priors: what the frames do not
-/// determine stays at zero with the prior's uncertainty. A shift of the camera resembles a depth
-/// bias: their sum is known better than either.
+/// Constant difference of one camera's cloud and the model without contact: a depth bias of low
+/// order over the image (a share of z), a small error of the camera pose, and an offset of each
+/// surface point (facets of the mesh, texture). One linear least-squares problem with priors: what
+/// the frames do not determine stays at zero with the prior's uncertainty. A shift of the camera
+/// resembles a depth bias: their sum is known better than either.
 ///
 /// Where a calibration has estimated the map together with the camera pose, both and their joint
 /// covariance are the prior. It may come from the very frames that are learnt: prior and frames are
@@ -59,7 +60,7 @@ class DepthBias {
   /// Matches of one contact-free frame, found about an equilibrium `x_m` [3n] of the model. Frames
   /// in the order of time; those without a match do not count. Another `sequence` than that of the
   /// frame before begins a sequence.
-  void Learn(const std::vector<correspondence::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
+  void Learn(std::span<const correspondence::FeatureMatch> matches, const Eigen::VectorXd& x_m,
              const Eigen::Isometry3d& T_robot_camera, std::uint32_t sequence = 0);
   /// Solves for the parameters; more frames and another call improve them. kNoCalibration where too
   /// few surface points were seen and no calibration gave the map.

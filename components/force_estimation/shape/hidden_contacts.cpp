@@ -43,10 +43,9 @@ HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& conf
       fit_(fit),
       search_(model, config, tuning.search),
       pause_(tuning.frames_between_searches),
-      average_(static_cast<int>(model.body().feature_points.size()), tuning.average),
-      row_of_feature_(model.body().feature_points.size(), -1) {}
+      average_(tuning.average) {}
 
-Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
+Status HiddenContacts::Find(const ShapeFrame& frame, const CameraBiases& bias) {
   if (before_) return Decide(frame, bias);
   Status status = Status::Ok();
   if (!bias.known()) return status;
@@ -68,7 +67,7 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
   return status;
 }
 
-Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
+Status HiddenContacts::Search(const ShapeFrame& frame, const CameraBiases& bias) {
   fit_.AddWork(tuning_.search_work);
   if (!Respond(frame.cables).ok()) return Status::Ok();
   const Unexplained data = LeftOver();
@@ -108,7 +107,7 @@ bool HiddenContacts::IsTimeToSearch() {
   return true;
 }
 
-Status HiddenContacts::Follow(const ShapeFrame& frame, const DepthBias& bias) {
+Status HiddenContacts::Follow(const ShapeFrame& frame, const CameraBiases& bias) {
   AddToAverage();
   if (!(left_over_ || IsTimeToFollow()) || LeavesToNextFrame()) return Status::Ok();
   fit_.AddWork(tuning_.search_work);
@@ -124,7 +123,7 @@ Status HiddenContacts::Follow(const ShapeFrame& frame, const DepthBias& bias) {
 
 /// The remaining residual may come from another contact, or from wrong locations of all.
 Status HiddenContacts::FindOthers(const Unexplained& data, const ShapeFrame& frame,
-                                  const DepthBias& bias) {
+                                  const CameraBiases& bias) {
   const std::vector<HiddenContact> found =
       search_.Find(data, tuning_.most_at_once, config_.hidden_significance, SeenPlaces(),
                    tuning_.taken_radius_m);
@@ -137,7 +136,7 @@ Status HiddenContacts::FindOthers(const Unexplained& data, const ShapeFrame& fra
 }
 
 Status HiddenContacts::MoveTo(const std::vector<HiddenContact>& found, const ShapeFrame& frame,
-                              const DepthBias& bias) {
+                              const CameraBiases& bias) {
   const std::vector<std::size_t> hidden = HiddenSites();
   bool moved = false;
   bool far = false;
@@ -201,16 +200,17 @@ void HiddenContacts::PrepareNext(const std::vector<robot::ActuatorCommand>& cabl
 Status HiddenContacts::Respond(const std::vector<robot::ActuatorCommand>& cables) {
   if (linearisations_ != fit_.linearisations()) {
     responses_.Clear();
-    std::fill(row_of_feature_.begin(), row_of_feature_.end(), -1);
+    row_of_match_.clear();
     linearisations_ = fit_.linearisations();
   }
   std::vector<robot::ObservationRow> rows;
-  std::vector<int> features;
-  for (std::size_t r = 0; r < fit_.targets().features().size(); ++r) {
-    const int feature = fit_.targets().features()[r];
-    if (row_of_feature_[At(feature)] >= 0) continue;
+  std::vector<std::size_t> matches;
+  row_of_match_.resize(std::max(row_of_match_.size(), fit_.matches().size()), -1);
+  for (std::size_t r = 0; r < fit_.targets().matched().size(); ++r) {
+    const std::size_t match = fit_.targets().matched()[r];
+    if (row_of_match_[match] >= 0) continue;
     rows.push_back(fit_.targets().rows()[r]);
-    features.push_back(feature);
+    matches.push_back(match);
   }
   search_.SetShape(fit_.state().x_m);
   if (rows.empty()) return Status::Ok();
@@ -219,15 +219,13 @@ Status HiddenContacts::Respond(const std::vector<robot::ActuatorCommand>& cables
   int row = responses_.Count();
   Status status = responses_.Add(model_, rows, state.x_m, cables, state.lambda_a_N);
   if (!status.ok()) return status;
-  for (const int feature : features) row_of_feature_[At(feature)] = row++;
+  for (const std::size_t match : matches) row_of_match_[match] = row++;
   return status;
 }
 
 std::vector<int> HiddenContacts::RowsOfTargets() const {
   std::vector<int> rows;
-  for (const int feature : fit_.targets().features()) {
-    rows.push_back(row_of_feature_[At(feature)]);
-  }
+  for (const std::size_t match : fit_.targets().matched()) rows.push_back(row_of_match_[match]);
   return rows;
 }
 
@@ -259,7 +257,7 @@ Unexplained HiddenContacts::OfHidden() const {
 
 /// Keeps the fit with these hidden contacts where it is better than the one before.
 bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
-                         const DepthBias& bias, Status* status) {
+                         const CameraBiases& bias, Status* status) {
   ShapeFitter::Attempt before;
   fit_.KeepIn(&before);
   fit_.ReplaceHidden(contacts);
@@ -280,7 +278,7 @@ bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const Shape
 }
 
 /// In the frame in which the attempt has been fitted.
-Status HiddenContacts::Decide(const ShapeFrame& frame, const DepthBias& bias) {
+Status HiddenContacts::Decide(const ShapeFrame& frame, const CameraBiases& bias) {
   const ShapeFitter::Attempt before = std::move(*before_);
   before_.reset();
   if (fit_.fitter().fit().chi_squared < tuning_.better_misfit * before.chi_squared)

@@ -66,7 +66,7 @@ class HiddenContacts {
   /// After a fit of the known contacts; postponed where the frame's work is used up.
   /// kBudgetReached: an attempt is unfinished, and the next frame decides on it. Any other error:
   /// undoing an attempt failed, too.
-  Status Find(const ShapeFrame& frame, const DepthBias& bias);
+  Status Find(const ShapeFrame& frame, const CameraBiases& bias);
   /// Solves for the responses that the last Find postponed, if any.
   void PrepareNext(const std::vector<robot::ActuatorCommand>& cables);
   /// The contacts of the last search were removed: the next one is later.
@@ -77,11 +77,11 @@ class HiddenContacts {
   void Begin();
 
  private:
-  Status Search(const ShapeFrame& frame, const DepthBias& bias);
-  Status Follow(const ShapeFrame& frame, const DepthBias& bias);
-  Status FindOthers(const Unexplained& data, const ShapeFrame& frame, const DepthBias& bias);
+  Status Search(const ShapeFrame& frame, const CameraBiases& bias);
+  Status Follow(const ShapeFrame& frame, const CameraBiases& bias);
+  Status FindOthers(const Unexplained& data, const ShapeFrame& frame, const CameraBiases& bias);
   Status MoveTo(const std::vector<HiddenContact>& found, const ShapeFrame& frame,
-                const DepthBias& bias);
+                const CameraBiases& bias);
   bool IsMisfitLarge() const;
   bool IsTimeToSearch();
   bool IsTimeToFollow() const;
@@ -90,9 +90,9 @@ class HiddenContacts {
   Unexplained LeftOver() const;
   Unexplained OfHidden() const;
   Status Respond(const std::vector<robot::ActuatorCommand>& cables);
-  Status Decide(const ShapeFrame& frame, const DepthBias& bias);
+  Status Decide(const ShapeFrame& frame, const CameraBiases& bias);
   bool Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
-           const DepthBias& bias, Status* status);
+           const CameraBiases& bias, Status* status);
   bool AreWhereTheyWere(const std::vector<HiddenContact>& found) const;
   std::vector<std::size_t> HiddenSites() const;
   std::vector<Eigen::Vector3d> SeenPlaces() const;
@@ -113,7 +113,7 @@ class HiddenContacts {
   bool left_over_ = false;          ///< the last frame postponed new responses
   int linearisations_ = -1;         ///< that the responses belong to
   ObservationJacobian responses_;
-  std::vector<int> row_of_feature_;  ///< [features] of responses_; -1: none
+  std::vector<int> row_of_match_;  ///< [matches] of responses_; -1: none
   /// State before the unfinished attempt.
   std::optional<ShapeFitter::Attempt> before_;
 };

@@ -63,12 +63,12 @@ void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::Se
                  const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
                  const correspondence::PredictedView& view,
                  const correspondence::MatchDistances& distances,
-                 std::vector<correspondence::FeatureMatch>* matches,
+                 std::span<correspondence::FeatureMatch> matches,
                  const SurfaceMatchingTuning& tuning) {
   const Eigen::Isometry3d T_camera_robot = T_robot_camera.inverse();
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    correspondence::FeatureMatch& match = (*matches)[At(feature)];
+    correspondence::FeatureMatch& match = matches[At(feature)];
     const Eigen::Vector3d position_m = features.point(feature).Position(x_m);
     const NormalLine line{T_camera_robot * position_m,
                           T_camera_robot.linear() * normals.col(feature)};

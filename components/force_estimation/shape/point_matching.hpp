@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <vector>
+#include <span>
 
 #include "components/force_estimation/shape/surface_matching.hpp"
 #include "libs/correspondence/patch_matching.hpp"
@@ -16,12 +16,12 @@
 namespace palpate::force_estimation {
 
 /// Method `point` of SurfaceMatching: Algorithm 3 as published; what `view` does not show is
-/// hidden, too. `x_m` [3n] robot frame.
+/// hidden, too. `x_m` [3n] robot frame. `matches`: [features].
 void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::SensedCloud& cloud,
                  const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
                  const correspondence::PredictedView& view,
                  const correspondence::MatchDistances& distances,
-                 std::vector<correspondence::FeatureMatch>* matches,
+                 std::span<correspondence::FeatureMatch> matches,
                  const SurfaceMatchingTuning& tuning);
 
 }  // namespace palpate::force_estimation

@@ -18,26 +18,25 @@ double ShareLeft(int frames) { return std::min(1.0, kTemporalCorrelation / frame
 
 }  // namespace
 
-ShapeAverage::ShapeAverage(int feature_count, const ShapeAverageTuning& tuning)
-    : tuning_(tuning),
-      mean_m_(Eigen::VectorXd::Zero(feature_count)),
-      count_(static_cast<std::size_t>(feature_count), 0) {}
-
 void ShapeAverage::Forget() {
   frames_ = 0;
-  std::fill(count_.begin(), count_.end(), 0);
+  for (Mean& mean : means_) mean.count = 0;
+}
+
+const ShapeAverage::Mean& ShapeAverage::MeanOf(std::size_t match) const {
+  static const Mean kUnseen;
+  return match < means_.size() ? means_[match] : kUnseen;
 }
 
 bool ShapeAverage::Fits(const ShapeTargets& targets, const Eigen::VectorXd& motion_m) const {
   double sum = 0.0;
   int known = 0;
-  for (std::size_t r = 0; r < targets.features().size(); ++r) {
+  for (std::size_t r = 0; r < targets.matched().size(); ++r) {
     const auto row = ToIndex(r);
-    const int feature = targets.features()[r];
-    const int count = count_[At(feature)];
+    const auto [mean_m, count] = MeanOf(targets.matched()[r]);
     if (count == 0) continue;
     const double sigma_m = targets.noise_m()[row] * std::sqrt(1.0 + ShareLeft(count));
-    sum += std::pow((motion_m[row] - mean_m_[feature]) / sigma_m, 2);
+    sum += std::pow((motion_m[row] - mean_m) / sigma_m, 2);
     ++known;
   }
   return sum <= tuning_.moved_chi_squared * known;
@@ -48,13 +47,15 @@ void ShapeAverage::Add(const ShapeTargets& targets, const Eigen::VectorXd& motio
   ++frames_;
   motion_m_.resize(motion_m.size());
   weight_.resize(motion_m.size());
-  for (std::size_t r = 0; r < targets.features().size(); ++r) {
+  if (!targets.matched().empty()) {
+    means_.resize(std::max(means_.size(), targets.matched().back() + 1));
+  }
+  for (std::size_t r = 0; r < targets.matched().size(); ++r) {
     const auto row = ToIndex(r);
-    const int feature = targets.features()[r];
-    int& count = count_[At(feature)];
+    auto& [mean_m, count] = means_[targets.matched()[r]];
     count = std::min(count + 1, tuning_.most_frames);
-    mean_m_[feature] += (motion_m[row] - mean_m_[feature]) / count;
-    motion_m_[row] = mean_m_[feature];
+    mean_m += (motion_m[row] - mean_m) / count;
+    motion_m_[row] = mean_m;
     const double whole_m2 = std::pow(targets.sigma_m()[row], 2);
     const double noise_m2 = std::pow(targets.noise_m()[row], 2);
     const double share = targets.targets().weight[row] * whole_m2;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "components/force_estimation/shape/shape_targets.hpp"
@@ -23,7 +24,7 @@ struct ShapeAverageTuning {
 /// constant: a hidden contact is located from all of these frames.
 class ShapeAverage {
  public:
-  explicit ShapeAverage(int feature_count, const ShapeAverageTuning& tuning = {});
+  explicit ShapeAverage(const ShapeAverageTuning& tuning = {}) : tuning_(tuning) {}
 
   void Forget();
   /// A frame: `motion_m` of the rows of `targets`. One that differs from the mean by more than the
@@ -38,11 +39,16 @@ class ShapeAverage {
 
  private:
   bool Fits(const ShapeTargets& targets, const Eigen::VectorXd& motion_m) const;
+  /// Of a surface point that a camera sees, ShapeTargets::matched.
+  struct Mean {
+    double motion_m = 0.0;
+    int count = 0;
+  };
+  const Mean& MeanOf(std::size_t match) const;
 
   ShapeAverageTuning tuning_;
   int frames_ = 0;
-  Eigen::VectorXd mean_m_;  ///< [features]
-  std::vector<int> count_;  ///< [features]
+  std::vector<Mean> means_;  ///< [matches seen so far]
   Eigen::VectorXd motion_m_;
   Eigen::VectorXd weight_;
 };

@@ -163,13 +163,13 @@ Status ShapeFitter::Match(const ShapeFrame& frame) {
   return Status::Ok();
 }
 
-Status ShapeFitter::MatchAndFit(const ShapeFrame& frame, const DepthBias& bias) {
+Status ShapeFitter::MatchAndFit(const ShapeFrame& frame, const CameraBiases& bias) {
   Status status;
   const int rounds = MatchingRounds();
   for (int round = 0; round < rounds; ++round) {
     if (status = Match(frame); !status.ok()) return status;
-    T_robot_camera_ = frame.T_robot_camera;
-    targets_.Build(*matches_, bias, frame.T_robot_camera, state_.x_m, bias_x_m_, sites());
+    poses_ = frame.Poses();
+    targets_.Build(*matches_, bias, poses_, state_.x_m, bias_x_m_, sites());
     targets_.WeighAt(state_.x_m);
     fitter_.SetRows(targets_.rows());
     matched_x_m_ = state_.x_m;
@@ -189,11 +189,10 @@ int ShapeFitter::MatchingRounds() const {
 }
 
 Eigen::MatrixXd ShapeFitter::SharedBias_m() const {
-  const std::vector<int>& features = targets_.features();
-  Eigen::MatrixXd rows_m(ToIndex(features.size()), along_->Shared().size());
-  for (std::size_t r = 0; r < features.size(); ++r) {
-    rows_m.row(ToIndex(r)) =
-        along_->ScaledBasis((*matches_)[At(features[r])], T_robot_camera_).transpose();
+  const std::vector<std::size_t>& matched = targets_.matched();
+  Eigen::MatrixXd rows_m(ToIndex(matched.size()), along_->Shared().size());
+  for (std::size_t r = 0; r < matched.size(); ++r) {
+    rows_m.row(ToIndex(r)) = along_->ScaledBasis((*matches_)[matched[r]], poses_).transpose();
   }
   return rows_m;
 }
@@ -236,7 +235,7 @@ Eigen::MatrixXd ShapeFitter::Covariance_N2() const {
   return forces_N2 + gain * linalg::Cholesky(left).Solve(Eigen::MatrixXd(gain.transpose()));
 }
 
-Status ShapeFitter::MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias) {
+Status ShapeFitter::MatchAndFitFromFar(const ShapeFrame& frame, const CameraBiases& bias) {
   if (limited_) return MatchAndFit(frame, bias);
   fitter_.LimitContinuationSteps(tuning_.most_continuation_steps);
   Status status = MatchAndFit(frame, bias);
@@ -291,13 +290,13 @@ bool ShapeFitter::RenewAgedFactor() {
   return true;
 }
 
-Status ShapeFitter::FitAtNewLocations(const ShapeFrame& frame, const DepthBias& bias) {
+Status ShapeFitter::FitAtNewLocations(const ShapeFrame& frame, const CameraBiases& bias) {
   places_moved_ = true;
   UseSites();
   return MatchAndFit(frame, bias);
 }
 
-Status ShapeFitter::Locate(const ShapeFrame& frame, const DepthBias& bias) {
+Status ShapeFitter::Locate(const ShapeFrame& frame, const CameraBiases& bias) {
   const auto hidden = [](const ShapeSite& site) { return site.hidden; };
   if (std::all_of(sites().begin(), sites().end(), hidden)) {  // located by the search
     located_.clear();

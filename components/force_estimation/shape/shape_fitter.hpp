@@ -9,8 +9,8 @@
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/contact_tracks.hpp"
-#include "components/force_estimation/shape/depth_bias.hpp"
 #include "components/force_estimation/shape/location_step.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
@@ -111,16 +111,16 @@ class ShapeFitter {
   Status Match(const ShapeFrame& frame);
   /// Matches and fits forces, in rounds, until the surface points are at rest. kBudgetReached: the
   /// state is valid and nearer, but the frame's work is used up.
-  Status MatchAndFit(const ShapeFrame& frame, const DepthBias& bias);
+  Status MatchAndFit(const ShapeFrame& frame, const CameraBiases& bias);
   /// The same where the shape may be far away, as with new contacts: in a frame without a limit of
   /// work it continues where iterations are used up or do not converge.
-  Status MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias);
+  Status MatchAndFitFromFar(const ShapeFrame& frame, const CameraBiases& bias);
   /// Moves contacts whose force is a significant pull to the body's other side, where they push, if
   /// their uncertainty allows it. True where one moved: the shape must be fitted again.
   bool FlipAdhesiveContacts();
   /// Moves the visible contacts by a Gauss-Newton step of the deformation, with their image
   /// location as prior: by all of it in their first frames, then by a share, which averages noise.
-  Status Locate(const ShapeFrame& frame, const DepthBias& bias);
+  Status Locate(const ShapeFrame& frame, const CameraBiases& bias);
 
   /// A state that can be restored.
   struct Attempt {
@@ -140,7 +140,7 @@ class ShapeFitter {
 
   /// From now on each matching fits this bias, whose map is unknown, along with the forces;
   /// nullptr: no longer. It must be the one that MatchAndFit gets.
-  void FitAlong(DepthBias* bias) { along_ = bias; }
+  void FitAlong(CameraBiases* bias) { along_ = bias; }
   bool IsBiasFittedAlong() const { return along_ != nullptr; }
   /// Covariance of the forces [3k x 3k] of the last fit, N^2, with the share of a bias that was
   /// fitted along.
@@ -167,7 +167,7 @@ class ShapeFitter {
   /// steps. Returns whether it did; where that fails there is no factor.
   bool RenewAgedFactor();
   /// Fits after the locations of tracks have changed.
-  Status FitAtNewLocations(const ShapeFrame& frame, const DepthBias& bias);
+  Status FitAtNewLocations(const ShapeFrame& frame, const CameraBiases& bias);
   int TakeIterations() { return std::exchange(iterations_, 0); }
 
   Eigen::Vector3d ForceAt(std::size_t site) const {
@@ -209,8 +209,8 @@ class ShapeFitter {
   Eigen::VectorXd matched_x_m_;            ///< [3n] of the last matching
   Eigen::VectorXd bias_x_m_;               ///< [3n]; empty: the first initial shape
   std::vector<std::string> fitted_names_;  ///< of the fitter's sites
-  DepthBias* along_ = nullptr;
-  Eigen::Isometry3d T_robot_camera_ = Eigen::Isometry3d::Identity();  ///< of the last matching
+  CameraBiases* along_ = nullptr;
+  CameraPoses poses_;          ///< of the last matching
   bool places_moved_ = false;  ///< since the fitter's last update
   const std::vector<correspondence::FeatureMatch>* matches_ = nullptr;
   std::vector<LocatedForce> located_;

@@ -9,9 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "components/force_estimation/shape/bias_frame_check.hpp"
+#include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/contact_report.hpp"
-#include "components/force_estimation/shape/depth_bias.hpp"
 #include "components/force_estimation/shape/hidden_contacts.hpp"
 #include "components/force_estimation/shape/shape_fitter.hpp"
 #include "libs/core/check.hpp"
@@ -35,7 +34,6 @@ class ShapeForceEstimator::Impl {
         shape_(shape),
         tuning_(tuning),
         bias_(static_cast<int>(model.body().feature_points.size()), shape),
-        bias_frames_(shape),
         history_(model),
         fit_(model, config, shape),
         hidden_(model, shape, fit_),
@@ -64,13 +62,14 @@ class ShapeForceEstimator::Impl {
     if (!fit_.RenewAgedFactor()) hidden_.PrepareNext(cables_);
   }
 
-  void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera) {
-    bias_.StartFrom(map, T_robot_camera);
+  void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera,
+                     int camera) {
+    bias_.StartFrom(camera, map, T_robot_camera);
     calibrates_ = true;  // until the first frame that may have contacts
   }
 
   const std::vector<FeatureReport>& features() const { return features_; }
-  std::vector<BiasSequence> JudgeBiasFrames() const { return bias_frames_.Judge(); }
+  std::vector<BiasSequence> JudgeBiasFrames() const { return bias_.Judge(); }
   double SmallestForce_N(const Eigen::Vector3d& rest_position_m);
 
  private:
@@ -79,6 +78,8 @@ class ShapeForceEstimator::Impl {
   Status CheckFrame(const ShapeFrame& frame) const;
   Status Learn(const ShapeFrame& frame);
   Status Estimate(const ShapeFrame& frame);
+  bool SeesByUnknownBias(const ShapeFrame& frame) const;
+  ShapeFrame OfKnownBias(ShapeFrame frame) const;
   Status StartFromFreeState(const ShapeFrame& frame);
   Status FitFrame(const ShapeFrame& frame);
   Status FindAll(const ShapeFrame& frame, Status status);
@@ -95,8 +96,7 @@ class ShapeForceEstimator::Impl {
   robot::RobotModel& model_;
   ShapeConfig shape_;
   ShapeForceEstimatorTuning tuning_;
-  DepthBias bias_;
-  BiasFrameCheck bias_frames_;
+  CameraBiases bias_;
   robot::HistoryState history_;
   ShapeFitter fit_;
   HiddenContacts hidden_;
@@ -121,6 +121,7 @@ class ShapeForceEstimator::Impl {
 Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   ForgetBefore(frame);
+  bias_.HaveCameras(frame.views.size());
   if (!history_.active()) return frame.untouched ? Learn(frame) : Estimate(frame);
   ShapeFrame as_driven = frame;
   as_driven.cables = history_.Prepare(frame.t_s, frame.cables);
@@ -145,11 +146,13 @@ Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
       return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
     }
   }
-  if (!frame.T_robot_camera.matrix().allFinite()) {
-    return {StatusCode::kNoCalibration, "the camera's pose is not known"};
-  }
-  if (!frame.cloud.points_m.allFinite() || !frame.cloud.sigma_m.allFinite()) {
-    return {StatusCode::kInvalidInput, "the robot cloud holds NaN"};
+  for (const auto& [cloud, T_robot_camera] : frame.views) {
+    if (!T_robot_camera.matrix().allFinite()) {
+      return {StatusCode::kNoCalibration, "the camera's pose is not known"};
+    }
+    if (!cloud.points_m.allFinite() || !cloud.sigma_m.allFinite()) {
+      return {StatusCode::kInvalidInput, "the robot cloud holds NaN"};
+    }
   }
   return Status::Ok();
 }
@@ -159,9 +162,8 @@ Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
   if (Status status = StartFromFreeState(frame); !status.ok()) return status;
   PublishState();
   if (Status status = fit_.Match(frame); !status.ok()) return status;
-  bias_frames_.Add(bias_, frame.epoch, fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
   if (bias_.frames() == 0) fit_.SetBiasShape(fit_.state().x_m);
-  bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera, frame.epoch);
+  bias_.Learn(fit_.matches(), fit_.state().x_m, frame.Poses(), frame.epoch);
   return {StatusCode::kNoCalibration, "the depth bias is being estimated: frame " +
                                           std::to_string(bias_.frames()) + " without contact"};
 }
@@ -173,18 +175,36 @@ Status ShapeForceEstimator::Impl::StartFromFreeState(const ShapeFrame& frame) {
   return status;
 }
 
+/// Beside a camera of known bias, one of unknown bias would bend the shape by its bias.
+bool ShapeForceEstimator::Impl::SeesByUnknownBias(const ShapeFrame& frame) const {
+  if (!bias_.known()) return false;
+  for (std::size_t k = 0; k < frame.views.size(); ++k) {
+    if (frame.views[k].cloud.Count() > 0 && !bias_.IsKnown(k)) return true;
+  }
+  return false;
+}
+
+/// The frame without what such cameras see.
+ShapeFrame ShapeForceEstimator::Impl::OfKnownBias(ShapeFrame frame) const {
+  for (std::size_t k = 0; k < frame.views.size(); ++k) {
+    if (!bias_.IsKnown(k)) frame.views[k].cloud = {};
+  }
+  return frame;
+}
+
 Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
   if (!fit_.started()) {
     if (Status status = StartFromFreeState(frame); !status.ok()) return status;
   }
-  if (frame.cloud.Count() < tuning_.fewest_points) {
+  if (frame.PointCount() < tuning_.fewest_points) {
     PublishState();
     return {StatusCode::kNoRobotSeen,
-            "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
+            "only " + std::to_string(frame.PointCount()) + " points of the robot are seen"};
   }
   if (std::exchange(calibrates_, false)) {
     if (Status status = bias_.Finish(); !status.ok()) return status;
   }
+  if (SeesByUnknownBias(frame)) return Estimate(OfKnownBias(frame));
   if (!bias_.known()) bias_.SetShared(bias_.Shared());
   fit_.FitAlong(bias_.known() ? nullptr : &bias_);
   begins_ = frames_to_begin_ > 0;
@@ -367,6 +387,8 @@ void ShapeForceEstimator::Impl::ReportFeatures() {
   for (std::size_t r = 0; r < targets.features().size(); ++r) {
     const auto row = ToIndex(r);
     FeatureReport& feature = features_[At(targets.features()[r])];
+    if (feature.sigma_m > 0.0 && feature.sigma_m <= targets.sigma_m()[row]) continue;
+    feature.state = correspondence::MatchState::kMatched;
     feature.residual_m = fit_.fitter().fit().residual_m[row];
     feature.sigma_m = targets.sigma_m()[row];
   }
@@ -407,8 +429,8 @@ const ForceEstimate& ShapeForceEstimator::Update(const ShapeFrame& frame) {
 }
 
 void ShapeForceEstimator::TakeDepthBias(const geometry::DepthBiasMap& map,
-                                        const Eigen::Isometry3d& T_robot_camera) {
-  impl_->TakeDepthBias(map, T_robot_camera);
+                                        const Eigen::Isometry3d& T_robot_camera, int camera) {
+  impl_->TakeDepthBias(map, T_robot_camera, camera);
 }
 
 void ShapeForceEstimator::PrepareNext() { impl_->PrepareNext(); }

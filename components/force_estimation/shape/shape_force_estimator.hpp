@@ -18,7 +18,7 @@
 
 namespace palpate::force_estimation {
 
-/// A surface point in the last frame.
+/// A surface point in the last frame, as the camera sees it that tells most of it.
 struct FeatureReport {
   correspondence::MatchState state = correspondence::MatchState::kHidden;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< on the model, robot frame
@@ -59,7 +59,8 @@ struct ShapeForceEstimatorTuning {
 ///
 /// The first frames with `untouched` serve to estimate the depth bias and give kNoCalibration.
 /// Without such frames and without TakeDepthBias, the bias is fitted along with the forces of each
-/// frame: intervals are wider, and hidden contacts are not searched. A
+/// frame: intervals are wider, and hidden contacts are not searched. Where the bias of some cameras
+/// is known, the others are not used. A camera that sees nothing in a frame costs accuracy only. A
 /// frame with too few matches gives kNoRobotSeen; its x_m is the predicted shape for perception.
 class ShapeForceEstimator {
  public:
@@ -71,9 +72,11 @@ class ShapeForceEstimator {
                       const ShapeForceEstimatorTuning& tuning = {});
   ~ShapeForceEstimator();
 
-  /// The depth bias that a calibration has estimated together with this camera pose, which frames
-  /// must have. Contact-free frames then refine it, and none are needed. Before the first frame.
-  void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
+  /// The depth bias that a calibration has estimated together with this camera pose, which the
+  /// frames' views of that number must have. Contact-free frames then refine it, and none are
+  /// needed. Before the first frame.
+  void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera,
+                     int camera = 0);
 
   /// The estimate stays valid until the next call. Visible contacts have their names and kOk,
   /// kUncertain or kTangentialUnobservable; hidden ones are called hidden_1, hidden_2 and have

@@ -13,4 +13,16 @@ SeenContact InRobotFrame(const SeenContact& in_camera, const Eigen::Isometry3d& 
   return contact;
 }
 
+Eigen::Index ShapeFrame::PointCount() const {
+  Eigen::Index count = 0;
+  for (const ShapeView& view : views) count += view.cloud.Count();
+  return count;
+}
+
+CameraPoses ShapeFrame::Poses() const {
+  CameraPoses poses;
+  for (const ShapeView& view : views) poses.push_back(view.T_robot_camera);
+  return poses;
+}
+
 }  // namespace palpate::force_estimation

@@ -29,15 +29,17 @@ ShapeTargets::ShapeTargets(const ShapeConfig& config, double contact_weight,
     : config_(config), tuning_(tuning), contact_weight_(contact_weight) {}
 
 void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matches,
-                         const DepthBias& bias, const Eigen::Isometry3d& T_robot_camera,
+                         const CameraBiases& bias, const CameraPoses& poses,
                          const Eigen::VectorXd& x_m, const Eigen::VectorXd& bias_x_m,
                          const std::vector<ShapeSite>& sites) {
   rows_.clear();
   features_.clear();
-  for (std::size_t f = 0; f < matches.size(); ++f) {
-    if (matches[f].state != correspondence::MatchState::kMatched) continue;
-    rows_.push_back(matches[f].row);
-    features_.push_back(static_cast<int>(f));
+  matched_.clear();
+  for (std::size_t m = 0; m < matches.size(); ++m) {
+    if (matches[m].state != correspondence::MatchState::kMatched) continue;
+    rows_.push_back(matches[m].row);
+    features_.push_back(matches[m].feature);
+    matched_.push_back(m);
   }
   const auto count = ToIndex(rows_.size());
   targets_.rows = static_cast<int>(count);
@@ -46,14 +48,14 @@ void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matche
   sigma_m_.resize(count);
   noise_m_.resize(count);
   for (Eigen::Index r = 0; r < count; ++r) {
-    const int feature = features_[At(r)];
-    const correspondence::FeatureMatch& match = matches[At(feature)];
-    targets_.value_m[r] = match.target_m - bias.Correction_m(feature, match, T_robot_camera);
-    noise_m_[r] = bias.NoiseScale() * match.sigma_m;
+    const correspondence::FeatureMatch& match = matches[matched_[At(r)]];
+    targets_.value_m[r] = match.target_m - bias.Correction_m(match, poses);
+    noise_m_[r] = bias.NoiseScale(match.camera) * match.sigma_m;
     const double moved_m = match.row.Value(x_m) - match.row.Value(bias_x_m);
-    const double constant_m = std::hypot(bias.CorrectionSigma_m(feature, match, T_robot_camera),
-                                         config_.model_relative_sigma * moved_m);
+    const double constant_m =
+        std::hypot(bias.CorrectionSigma_m(match, poses), config_.model_relative_sigma * moved_m);
     sigma_m_[r] = std::hypot(noise_m_[r], constant_m);
+    const Eigen::Isometry3d& T_robot_camera = poses[At(match.camera)];
     const bool is_near = IsNearContact(match, T_robot_camera, x_m, sites, tuning_.feature_reach_m);
     const double share = is_near ? contact_weight_ : 1.0;
     targets_.weight[r] = share / (sigma_m_[r] * sigma_m_[r]);

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 #include "components/force_estimation/fit/force_fitter.hpp"
-#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_site.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
@@ -27,9 +27,10 @@ struct ShapeTargetsTuning {
   double near_chi_squared = 4.0;
 };
 
-/// The matched surface points as rows of the fit: targets without the constant bias; weights from
-/// the depth noise, the uncertainty of the bias and the model error (a share of the displacement
-/// since the bias was estimated); lower near contacts, and for outliers.
+/// The matched surface points, a row for each camera that sees one, as rows of the fit: targets
+/// without the constant bias; weights from the depth noise, the uncertainty of the bias and the
+/// model error (a share of the displacement since the bias was estimated); lower near contacts, and
+/// for outliers.
 class ShapeTargets {
  public:
   ShapeTargets(const ShapeConfig& config, double contact_weight,
@@ -37,9 +38,9 @@ class ShapeTargets {
 
   /// `x_m` [3n] the model's present shape, `bias_x_m` the shape in which the bias was
   /// estimated.
-  void Build(const std::vector<correspondence::FeatureMatch>& matches, const DepthBias& bias,
-             const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-             const Eigen::VectorXd& bias_x_m, const std::vector<ShapeSite>& sites);
+  void Build(const std::vector<correspondence::FeatureMatch>& matches, const CameraBiases& bias,
+             const CameraPoses& poses, const Eigen::VectorXd& x_m, const Eigen::VectorXd& bias_x_m,
+             const std::vector<ShapeSite>& sites);
   /// Huber's weights for the residuals at a shape, where that is near enough to recognise outliers.
   void WeighAt(const Eigen::VectorXd& x_m);
   /// Huber's weights for these residuals of the rows; true where one has changed much.
@@ -49,7 +50,9 @@ class ShapeTargets {
   const std::vector<robot::ObservationRow>& rows() const { return rows_; }
   const RowTargets& targets() const { return targets_; }
   const std::vector<int>& features() const { return features_; }  ///< [rows] feature of each
-  const Eigen::VectorXd& sigma_m() const { return sigma_m_; }     ///< [rows] before robust weights
+  /// [rows] index of each in the matches: the same in all frames for a feature and a camera.
+  const std::vector<std::size_t>& matched() const { return matched_; }
+  const Eigen::VectorXd& sigma_m() const { return sigma_m_; }  ///< [rows] before robust weights
   /// [rows] the part of it that differs from frame to frame: the depth noise.
   const Eigen::VectorXd& noise_m() const { return noise_m_; }
 
@@ -59,6 +62,7 @@ class ShapeTargets {
   double contact_weight_;
   std::vector<robot::ObservationRow> rows_;
   std::vector<int> features_;
+  std::vector<std::size_t> matched_;
   RowTargets targets_;
   Eigen::VectorXd sigma_m_;
   Eigen::VectorXd noise_m_;

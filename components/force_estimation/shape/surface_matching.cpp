@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "components/force_estimation/shape/point_matching.hpp"
 #include "libs/core/check.hpp"
@@ -20,11 +21,13 @@ namespace palpate::force_estimation {
 namespace {
 
 void CheckInput(const ShapeFrame& frame, const Eigen::VectorXd& x_m, int last_node) {
-  const rgbd::SensedCloud& cloud = frame.cloud;
-  PALPATE_CHECK(cloud.sigma_m.size() == cloud.Count(), cloud.sigma_m.size(), cloud.Count());
-  PALPATE_CHECK(cloud.points_m.allFinite());
-  PALPATE_CHECK(cloud.Count() == 0 || (cloud.sigma_m.allFinite() && cloud.sigma_m.minCoeff() > 0));
-  PALPATE_CHECK(frame.T_robot_camera.matrix().allFinite());
+  for (const auto& [cloud, T_robot_camera] : frame.views) {
+    PALPATE_CHECK(cloud.sigma_m.size() == cloud.Count(), cloud.sigma_m.size(), cloud.Count());
+    PALPATE_CHECK(cloud.points_m.allFinite());
+    PALPATE_CHECK(cloud.Count() == 0 ||
+                  (cloud.sigma_m.allFinite() && cloud.sigma_m.minCoeff() > 0));
+    PALPATE_CHECK(T_robot_camera.matrix().allFinite());
+  }
   PALPATE_CHECK(x_m.size() > 3 * last_node + 2 && x_m.allFinite(), x_m.size(), last_node);
 }
 
@@ -61,15 +64,15 @@ correspondence::MatchDistances ChooseDistances(const ShapeConfig& config,
 }
 
 /// For a patch, whose points are not searched along the surface point's normal line.
-void MeasureLineDistances(const correspondence::SurfaceFeatures& features, const ShapeFrame& frame,
-                          const Eigen::VectorXd& x_m,
-                          std::vector<correspondence::FeatureMatch>* matches) {
+void MeasureLineDistances(const correspondence::SurfaceFeatures& features,
+                          const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
+                          std::span<correspondence::FeatureMatch> matches) {
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    correspondence::FeatureMatch& match = (*matches)[At(feature)];
+    correspondence::FeatureMatch& match = matches[At(feature)];
     if (match.state != correspondence::MatchState::kMatched) continue;
     const Eigen::Vector3d offset_m =
-        frame.T_robot_camera * match.position_m - features.point(feature).Position(x_m);
+        T_robot_camera * match.position_m - features.point(feature).Position(x_m);
     match.line_distance_m = offset_m.cross(normals.col(feature)).norm();
   }
 }
@@ -84,6 +87,9 @@ struct SurfaceMatching::Parts {
   correspondence::PredictedView view;
   correspondence::PatchMatching patches;
   std::vector<correspondence::FeatureMatch> matches;
+
+  void MatchView(const ShapeView& seen, const Eigen::VectorXd& x_m,
+                 std::span<correspondence::FeatureMatch> of_camera);
 };
 
 SurfaceMatching::SurfaceMatching(const correspondence::SurfaceFeatures& features,
@@ -103,21 +109,32 @@ const std::vector<correspondence::FeatureMatch>& SurfaceMatching::Match(
   const correspondence::SurfaceFeatures& features = parts_->features;
   std::vector<correspondence::FeatureMatch>& matches = parts_->matches;
   CheckInput(frame, x_m, features.triangles().maxCoeff());
-  matches.assign(static_cast<size_t>(features.Count()), correspondence::FeatureMatch{});
-  if (frame.cloud.Count() == 0) return matches;
-  const correspondence::MatchDistances distances =
-      ChooseDistances(parts_->config, frame.cloud, parts_->tuning);
-  parts_->surface.MoveTo(x_m, frame.T_robot_camera.inverse());
-  parts_->view.Look(parts_->surface.vertices_m(), parts_->surface.triangles());
-  if (parts_->config.matching == "point") {
-    MatchPoints(features, frame.cloud, frame.T_robot_camera, x_m, parts_->view, distances, &matches,
-                parts_->tuning);
-  } else {
-    parts_->patches.Match(frame.cloud, frame.T_robot_camera, parts_->surface, parts_->view,
-                          distances, &matches);
-    MeasureLineDistances(features, frame, x_m, &matches);
+  const auto count = static_cast<std::size_t>(features.Count());
+  matches.assign(frame.views.size() * count, correspondence::FeatureMatch{});
+  for (std::size_t camera = 0; camera < frame.views.size(); ++camera) {
+    const std::span of_camera = std::span(matches).subspan(camera * count, count);
+    for (std::size_t feature = 0; feature < count; ++feature) {
+      of_camera[feature].feature = static_cast<int>(feature);
+      of_camera[feature].camera = static_cast<int>(camera);
+    }
+    parts_->MatchView(frame.views[camera], x_m, of_camera);
   }
   return matches;
+}
+
+void SurfaceMatching::Parts::MatchView(const ShapeView& seen, const Eigen::VectorXd& x_m,
+                                       std::span<correspondence::FeatureMatch> of_camera) {
+  const auto& [cloud, T_robot_camera] = seen;
+  if (cloud.Count() == 0) return;
+  const correspondence::MatchDistances distances = ChooseDistances(config, cloud, tuning);
+  surface.MoveTo(x_m, T_robot_camera.inverse());
+  view.Look(surface.vertices_m(), surface.triangles());
+  if (config.matching == "point") {
+    MatchPoints(features, cloud, T_robot_camera, x_m, view, distances, of_camera, tuning);
+  } else {
+    patches.Match(cloud, T_robot_camera, surface, view, distances, of_camera);
+    MeasureLineDistances(features, T_robot_camera, x_m, of_camera);
+  }
 }
 
 }  // namespace palpate::force_estimation

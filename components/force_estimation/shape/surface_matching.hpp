@@ -43,9 +43,10 @@ class SurfaceMatching {
                   const SurfaceMatchingTuning& tuning = {});
   ~SurfaceMatching();
 
-  /// `x_m` [3n] the model's nodes, robot frame. One entry for each feature; holds until the next
-  /// call. Cloud points farther than d_l from the surface count as outliers. Everything must be
-  /// finite and the cloud's sigmas above 0.
+  /// `x_m` [3n] the model's nodes, robot frame. One entry for each feature and camera: [features]
+  /// of the first camera, then of the next; holds until the next call. Each camera matches its own
+  /// cloud, with its own noise and lines of sight. Cloud points farther than d_l from the surface
+  /// count as outliers. Everything must be finite and the clouds' sigmas above 0.
   const std::vector<correspondence::FeatureMatch>& Match(const ShapeFrame& frame,
                                                          const Eigen::VectorXd& x_m);
 

@@ -74,6 +74,14 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model);
 
+/// Adds the poses and depth biases of the cameras beside the first, each from its own images, to
+/// the calibration `file` of the robot and the first camera, on which they build. A camera without
+/// images or an approximate pose is left out, which is printed. Throws RunError where images do not
+/// fit. The model has the calibration afterwards.
+void CalibrateFurtherCameras(const CalibrateOptions& options,
+                             const experiment::Experiment& experiment, robot::RobotModel* model,
+                             robot::CalibrationFile* file);
+
 /// From named markers and from images in one fit. Images without an approximate camera pose are
 /// left out, which is printed. Throws RunError where one of both does not fit, or they contradict
 /// each other.

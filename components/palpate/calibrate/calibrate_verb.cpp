@@ -67,9 +67,8 @@ bool HasMarkers(const experiment::Experiment& experiment) {
       [](const experiment::Recording& recording) { return recording.markers.has_value(); });
 }
 
-robot::CalibrationFile Find(const std::filesystem::path& folder, const CalibrateOptions& options,
-                            robot::RobotModel* model) {
-  const auto experiment = experiment::ReadExperiment(folder, app::LoadYaml);
+robot::CalibrationFile Find(const experiment::Experiment& experiment,
+                            const CalibrateOptions& options, robot::RobotModel* model) {
   const std::vector<int> materials = MaterialsOf(PartsOf(options, model->body()), model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
   if (!unlabelled) {
@@ -203,7 +202,11 @@ int Calibrate(const CalibrateOptions& options) {
   const DataFolder data(options.data, options.remap);
   robot::CalibrationFile file;
   data.Run([&](const std::filesystem::path& folder) {
-    file = Find(folder, options, model.get());
+    const auto experiment = experiment::ReadExperiment(folder, app::LoadYaml);
+    file = Find(experiment, options, model.get());
+    if (options.what != "material") {
+      CalibrateFurtherCameras(options, experiment, model.get(), &file);
+    }
     return app::kExitDone;
   });
   end_on_signal.reset();

@@ -7,6 +7,7 @@
 
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "components/palpate/choose_recordings.hpp"
 #include "libs/core/error.hpp"
@@ -20,6 +21,33 @@ namespace {
 
 std::vector<double> ToList(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
+}
+
+void PrintCamera(const robot::CalibratedPose& pose,
+                 const std::optional<robot::CalibratedDepthBias>& depth_bias) {
+  constexpr double kDegrees = 57.29577951308232;
+  fmt::print("T_robot_camera: {}\n", geometry::FormatPose(pose.T_robot_camera));
+  fmt::print("  standard error: {:.2f} mm, {:.3f} degrees\n", 1e3 * pose.translation_error_m.norm(),
+             kDegrees * pose.rotation_error_rad.norm());
+  if (!depth_bias) return;
+  fmt::print("depth bias: {:.2f} % of z at the image centre; the file has the map\n",
+             100.0 * depth_bias->map.coefficients[0]);
+}
+
+void PrintCameras(const std::vector<robot::CalibratedCamera>& cameras) {
+  for (const robot::CalibratedCamera& camera : cameras) {
+    fmt::print("camera '{}': ", camera.name);
+    PrintCamera(camera.pose, camera.depth_bias);
+  }
+}
+
+nlohmann::ordered_json ToJson(const robot::CalibratedPose& found) {
+  const Eigen::Isometry3d& pose = found.T_robot_camera;
+  const Eigen::Quaterniond rotation(pose.linear());
+  return {{"translation_m", ToList(pose.translation())},
+          {"rotation_xyzw", {rotation.x(), rotation.y(), rotation.z(), rotation.w()}},
+          {"rotation_standard_error_rad", ToList(found.rotation_error_rad)},
+          {"translation_standard_error_m", ToList(found.translation_error_m)}};
 }
 
 void PrintGeometry(const robot::CalibrationFile& file) {
@@ -98,17 +126,8 @@ void PrintCalibration(const robot::CalibrationFile& file) {
                geometry::FormatVector(file.gravity->gravity_m_s2),
                geometry::FormatVector(file.gravity->standard_error_m_s2));
   }
-  if (file.pose) {
-    constexpr double kDegrees = 57.29577951308232;
-    fmt::print("T_robot_camera: {}\n", geometry::FormatPose(file.pose->T_robot_camera));
-    fmt::print("  standard error: {:.2f} mm, {:.3f} degrees\n",
-               1e3 * file.pose->translation_error_m.norm(),
-               kDegrees * file.pose->rotation_error_rad.norm());
-  }
-  if (file.depth_bias) {
-    fmt::print("depth bias: {:.2f} % of z at the image centre; the file has the map\n",
-               100.0 * file.depth_bias->map.coefficients[0]);
-  }
+  if (file.pose) PrintCamera(*file.pose, file.depth_bias);
+  PrintCameras(file.cameras);
   for (const robot::CalibratedDrive& drive : file.drives) {
     fmt::print(
         "actuator of {}: offset {:.3f} mm (standard error {:.3f} mm), gain {:.2f} % ({:.2f} %)\n",
@@ -147,14 +166,9 @@ void PrintCalibrationJson(const robot::CalibrationFile& file) {
     json["gravity_m_s2"] = ToList(file.gravity->gravity_m_s2);
     json["gravity_standard_error_m_s2"] = ToList(file.gravity->standard_error_m_s2);
   }
-  if (file.pose) {
-    const Eigen::Isometry3d& pose = file.pose->T_robot_camera;
-    const Eigen::Quaterniond rotation(pose.linear());
-    json["T_robot_camera"] = {
-        {"translation_m", ToList(pose.translation())},
-        {"rotation_xyzw", {rotation.x(), rotation.y(), rotation.z(), rotation.w()}},
-        {"rotation_standard_error_rad", ToList(file.pose->rotation_error_rad)},
-        {"translation_standard_error_m", ToList(file.pose->translation_error_m)}};
+  if (file.pose) json["T_robot_camera"] = ToJson(*file.pose);
+  for (const robot::CalibratedCamera& camera : file.cameras) {
+    json["cameras"].push_back({{"name", camera.name}, {"T_robot_camera", ToJson(camera.pose)}});
   }
   for (const robot::CalibratedDrive& drive : file.drives) {
     json["drives"].push_back({{"cable", drive.cable},

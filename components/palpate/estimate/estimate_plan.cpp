@@ -3,6 +3,7 @@
 
 #include "components/palpate/estimate/estimate_plan.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "components/palpate/choose_recordings.hpp"
@@ -53,7 +54,10 @@ bool IsContactFree(const Recording& recording) {
 }
 
 bool HasImages(const Recording& recording) {
-  return !recording.depth_images.empty() || !recording.clouds.empty();
+  const auto has = [](const auto& camera) {
+    return !camera.depth_images.empty() || !camera.clouds.empty();
+  };
+  return has(recording) || std::any_of(recording.cameras.begin(), recording.cameras.end(), has);
 }
 
 std::vector<PlannedRecording> PlanEstimates(const Experiment& experiment,

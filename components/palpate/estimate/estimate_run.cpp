@@ -23,11 +23,17 @@
 #include "components/palpate/robot_scene.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
 
 namespace {
+
+geometry::PoseStandardError ErrorOf(const robot::CalibratedPose& pose) {
+  return {.translation_m = pose.translation_error_m.maxCoeff(),
+          .rotation_rad = pose.rotation_error_rad.maxCoeff()};
+}
 
 /// Applies the calibration to the model and the experiment, and returns it.
 robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model,
@@ -40,9 +46,13 @@ robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot
   robot::ApplyCalibration(calibration, model);
   if (calibration.pose) {
     experiment->T_robot_camera = calibration.pose->T_robot_camera;
-    experiment->T_robot_camera_error = {
-        .translation_m = calibration.pose->translation_error_m.maxCoeff(),
-        .rotation_rad = calibration.pose->rotation_error_rad.maxCoeff()};
+    experiment->T_robot_camera_error = ErrorOf(*calibration.pose);
+  }
+  for (const std::string& name : experiment::FurtherCameras(*experiment)) {
+    for (const robot::CalibratedCamera& camera : calibration.cameras) {
+      if (camera.name == name)
+        experiment::SetPose(name, camera.pose.T_robot_camera, ErrorOf(camera.pose), experiment);
+    }
   }
   return calibration;
 }
@@ -56,6 +66,7 @@ void WidenPosePriors(const experiment::Experiment& experiment,
     shape->pose_prior_rad = std::max(shape->pose_prior_rad, error->rotation_rad);
   };
   widen(experiment.T_robot_camera_error);
+  for (const auto& camera : experiment.cameras) widen(camera.T_robot_camera_error);
   for (const auto& recording : experiment.recordings) {
     if (recording.T_robot_camera) widen(recording.T_robot_camera_error);
   }
@@ -102,12 +113,14 @@ ShapeReplay& EstimateRun::Shape() {
 }
 
 std::unique_ptr<ShapeReplay> EstimateRun::MakeShapeReplay() const {
-  ReplayPerception perception = MakeReplayPerception(settings_.perception, calibration_.depth_bias);
+  const std::vector<std::string> cameras = experiment::FurtherCameras(experiment_);
+  ReplayPerception perception =
+      MakeReplayPerception(settings_.perception, DepthBiasesOf(calibration_, cameras));
   force_estimation::ShapeConfig shape = settings_.shape;
   WidenPosePriors(experiment_, &shape);
   if (options_.bias_frames != "first" || calibration_.depth_bias) shape.untouched_frames = 0;
   auto pipeline = std::make_unique<force_estimation::ShapePipeline>(model_, settings_.forces, shape,
-                                                                    calibration_);
+                                                                    calibration_, cameras);
   const ShapeReplay::Inputs inputs{.experiment = experiment_,
                                    .model = &model_,
                                    .cable_input = ParseCableInput(options_.cable_input),
@@ -161,7 +174,12 @@ void EstimateRun::CalibrateMarkerOffsets(const std::vector<PlannedRecording>& pl
 }
 
 ReplayCount EstimateRun::Replay(const PlannedRecording& planned, const TakeEstimate& take) {
-  if (planned.from == EstimateFrom::kShape) return Shape().Estimate(*planned.recording, take);
+  if (planned.from == EstimateFrom::kShape) {
+    Shape().TakeNotes();  // of the bias frames
+    const ReplayCount count = Shape().Estimate(*planned.recording, take);
+    for (const std::string& note : Shape().TakeNotes()) Say(note);
+    return count;
+  }
   const MarkerReplay::Inputs inputs{.experiment = experiment_,
                                     .model = &model_,
                                     .cable_input = ParseCableInput(options_.cable_input),

@@ -4,11 +4,13 @@
 #include "components/palpate/estimate/image_check.hpp"
 
 #include <algorithm>
+#include <string>
 #include <variant>
 
 #include "components/palpate/images/image_misfit.hpp"
 #include "components/palpate/images/open_images.hpp"
 #include "libs/core/error.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 
 namespace palpate::command {
@@ -17,8 +19,11 @@ namespace {
 
 using experiment::Recording;
 
-void RequireFit(const ImageCheck& check, const Recording& recording, bool may_be_touched) {
-  const auto pose = experiment::RobotFromCamera(check.experiment, recording);
+/// Of the images that `recording` itself has, those of `camera`, empty: the first.
+void RequireFitOf(const ImageCheck& check, const experiment::Experiment& experiment,
+                  const Recording& recording, const std::string& camera, bool may_be_touched) {
+  if (recording.depth_images.empty() && recording.clouds.empty()) return;
+  const auto pose = experiment::RobotFromCamera(experiment, recording);
   if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return;
   const auto& T_robot_camera = std::get<Eigen::Isometry3d>(pose);
   const experiment::RgbdSequence images = OpenImages(recording);
@@ -32,7 +37,18 @@ void RequireFit(const ImageCheck& check, const Recording& recording, bool may_be
       {SampleAt(recording, images, 0, recording.name, *check.model, check.cable_input)},
       check.noise, request, check.model);
   if (misfit.fits) return;
-  throw RunError(recording.name + ": " + MisfitText(misfit.reasons, "no forces were estimated"));
+  throw RunError(recording.name + (camera.empty() ? "" : ", camera '" + camera + "'") + ": " +
+                 MisfitText(misfit.reasons, "no forces were estimated"));
+}
+
+void RequireFit(const ImageCheck& check, const Recording& recording, bool may_be_touched) {
+  const experiment::Experiment& experiment = check.experiment;
+  RequireFitOf(check, experiment, recording, "", may_be_touched);
+  for (const experiment::CameraFiles& camera : recording.cameras) {
+    RequireFitOf(check, experiment::OfCamera(experiment, camera.name),
+                 experiment::OfCamera(experiment, recording, camera.name), camera.name,
+                 may_be_touched);
+  }
 }
 
 }  // namespace

@@ -3,9 +3,10 @@
 
 #include "components/palpate/estimate/replay_perception.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 
-#include "components/perception/perception.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -19,17 +20,35 @@ void RequirePicture(const robot::CalibratedDepthBias& bias, const rgbd::CameraMo
 
 }  // namespace
 
-ReplayPerception MakeReplayPerception(const perception::Config& config,
-                                      const std::optional<robot::CalibratedDepthBias>& depth_bias) {
-  const auto perception = std::make_shared<perception::Perception>(config);
-  return {.set_camera =
-              [perception, depth_bias](const rgbd::RgbdCamera& camera) {
-                if (depth_bias) RequirePicture(*depth_bias, camera.depth);
-                perception->SetCamera(camera);
-              },
-          .update = [perception](const rgbd::RgbdFrame& frame,
-                                 const perception::PredictedSurface* predicted)
-              -> const perception::Observation& { return perception->Update(frame, predicted); }};
+ReplayPerception MakeReplayPerception(
+    const perception::Config& config,
+    const std::vector<std::optional<robot::CalibratedDepthBias>>& depth_biases) {
+  const auto perception = std::make_shared<perception::JointPerception>(config);
+  return {
+      .open =
+          [perception, depth_biases](const std::vector<std::optional<rgbd::RgbdCamera>>& cameras) {
+            for (std::size_t k = 0; k < std::min(cameras.size(), depth_biases.size()); ++k) {
+              if (cameras[k] && depth_biases[k]) {
+                RequirePicture(*depth_biases[k], cameras[k]->depth);
+              }
+            }
+            perception->Open(cameras);
+          },
+      .update = [perception](std::int64_t stamp_ns,
+                             const std::vector<perception::CameraFrame>& frames)
+          -> const perception::JointObservation& { return perception->Update(stamp_ns, frames); }};
+}
+
+std::vector<std::optional<robot::CalibratedDepthBias>> DepthBiasesOf(
+    const robot::CalibrationFile& calibration, const std::vector<std::string>& cameras) {
+  std::vector<std::optional<robot::CalibratedDepthBias>> biases = {calibration.depth_bias};
+  for (const std::string& name : cameras) {
+    auto& bias = biases.emplace_back();
+    for (const robot::CalibratedCamera& camera : calibration.cameras) {
+      if (camera.name == name) bias = camera.depth_bias;
+    }
+  }
+  return biases;
 }
 
 }  // namespace palpate::command

@@ -3,30 +3,37 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "components/perception/config.hpp"
-#include "components/perception/observation.hpp"
+#include "components/perception/joint_perception.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
-#include "libs/rgbd/rgbd_frame.hpp"
 #include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
 
-/// The methods of perception::Perception that a replay uses, which a test may replace.
+/// The methods of perception::JointPerception that a replay uses, which a test may replace.
 struct ReplayPerception {
-  /// A sequence of images begins: perception::Perception::SetCamera.
-  std::function<void(const rgbd::RgbdCamera&)> set_camera;
-  /// perception::Perception::Update
-  std::function<const perception::Observation&(const rgbd::RgbdFrame&,
-                                               const perception::PredictedSurface*)>
+  std::function<void(const std::vector<std::optional<rgbd::RgbdCamera>>&)> open;
+  std::function<const perception::JointObservation&(std::int64_t stamp_ns,
+                                                    const std::vector<perception::CameraFrame>&)>
       update;
 };
 
-/// `depth_bias`: of the calibration. Throws InputError for settings that do not go together;
-/// set_camera throws it for images of another size or lens than the depth bias is for.
-ReplayPerception MakeReplayPerception(const perception::Config& config,
-                                      const std::optional<robot::CalibratedDepthBias>& depth_bias);
+/// `depth_biases`: of the calibration, by number of the camera. Throws InputError for settings that
+/// do not go together; open throws it for images of another size or lens than the depth bias is
+/// for.
+ReplayPerception MakeReplayPerception(
+    const perception::Config& config,
+    const std::vector<std::optional<robot::CalibratedDepthBias>>& depth_biases);
+
+/// The biases of a calibration in this order: that of the first camera, then those of the cameras
+/// of these names.
+std::vector<std::optional<robot::CalibratedDepthBias>> DepthBiasesOf(
+    const robot::CalibrationFile& calibration, const std::vector<std::string>& cameras);
 
 }  // namespace palpate::command

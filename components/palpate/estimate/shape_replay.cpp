@@ -16,6 +16,7 @@
 #include "components/palpate/progress_line.hpp"
 #include "components/perception/predicted_surface.hpp"
 #include "libs/core/index.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::command {
@@ -27,10 +28,35 @@ using force_estimation::ForceEstimate;
 
 constexpr double kNsPerSecond = 1e9;
 
+}  // namespace
+
+/// One camera in a recording.
+struct ShapeReplay::SceneCamera {
+  experiment::RgbdSequence images;  ///< without frames: it has none there
+  std::variant<Eigen::Isometry3d, experiment::NeedsCalibration> pose;
+
+  static SceneCamera Open(const experiment::Experiment& experiment, const Recording& recording) {
+    SceneCamera camera{.images = {}, .pose = experiment::RobotFromCamera(experiment, recording)};
+    const bool has_images = !recording.depth_images.empty() || !recording.clouds.empty();
+    if (has_images) camera.images = OpenImages(recording);
+    return camera;
+  }
+  bool IsUsed() const { return !images.frames.empty() && HasPose(); }
+  bool HasPose() const { return std::holds_alternative<Eigen::Isometry3d>(pose); }
+};
+
+namespace {
+
+std::vector<std::int64_t> TimesOf(const experiment::RgbdSequence& images) {
+  std::vector<std::int64_t> t_ns;
+  for (const experiment::FrameFiles& frame : images.frames) t_ns.push_back(frame.t_ns);
+  return t_ns;
+}
+
 /// The numbers of the frames to estimate, in their order.
-std::vector<std::size_t> ChosenFrames(const experiment::RgbdSequence& images, double rate_Hz) {
+std::vector<std::size_t> ChosenFrames(const std::vector<JointFrame>& frames, double rate_Hz) {
   std::vector<double> t_s;
-  for (const experiment::FrameFiles& frame : images.frames) {
+  for (const JointFrame& frame : frames) {
     t_s.push_back(static_cast<double>(frame.t_ns) / kNsPerSecond);
   }
   const std::vector<bool> kept = KeptFrames(t_s, rate_Hz);
@@ -41,34 +67,58 @@ std::vector<std::size_t> ChosenFrames(const experiment::RgbdSequence& images, do
   return chosen;
 }
 
-ReplayCount RefuseEach(const experiment::RgbdSequence& images, const std::string& reason,
-                       const TakeEstimate& take) {
-  ForceEstimate refused;
-  refused.status = Status(StatusCode::kNoCalibration, reason);
-  for (const experiment::FrameFiles& frame : images.frames) {
-    refused.t_s = static_cast<double>(frame.t_ns) / kNsPerSecond;
-    take(refused);
-  }
-  const int count = static_cast<int>(images.frames.size());
-  return {.done = count, .total = count};
-}
-
 }  // namespace
 
-/// A recording and its camera's pose.
+/// A recording and its cameras.
 struct ShapeReplay::Scene {
   const Recording& recording;
-  experiment::RgbdSequence images;
-  Eigen::Isometry3d T_robot_camera;
+  std::vector<SceneCamera> cameras = {};  ///< by number
+  std::vector<JointFrame> frames = {};    ///< of the cameras that are used
+  force_estimation::CameraPoses poses = {};
+  std::string why_blind = {};  ///< where none is used: the reason
 };
 
 ShapeReplay::ShapeReplay(const Inputs& inputs, ReplayPerception perception,
                          std::unique_ptr<force_estimation::ShapePipeline> pipeline)
     : inputs_(inputs),
+      names_(experiment::FurtherCameras(inputs.experiment)),
       perception_(std::move(perception)),
       pipeline_(std::move(pipeline)),
       triangles_(inputs.model->body().boundary.DrawnTriangles()),
-      gravity_m_s2_(inputs.model->gravity_m_s2()) {}
+      gravity_m_s2_(inputs.model->gravity_m_s2()),
+      frames_(names_.size() + 1),
+      predicted_(names_.size() + 1) {
+  for (const std::string& name : names_) {
+    of_names_.push_back(experiment::OfCamera(inputs.experiment, name));
+  }
+}
+
+ShapeReplay::Scene ShapeReplay::Open(const Recording& recording) {
+  Scene scene{.recording = recording};
+  scene.cameras.push_back(SceneCamera::Open(inputs_.experiment, recording));
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    scene.cameras.push_back(SceneCamera::Open(
+        of_names_[k], experiment::OfCamera(inputs_.experiment, recording, names_[k])));
+  }
+  std::vector<std::vector<std::int64_t>> all_ns, used_ns;
+  for (const SceneCamera& camera : scene.cameras) {
+    all_ns.push_back(TimesOf(camera.images));
+    used_ns.push_back(camera.IsUsed() ? all_ns.back() : std::vector<std::int64_t>());
+    scene.poses.push_back(camera.HasPose() ? std::get<Eigen::Isometry3d>(camera.pose)
+                                           : Eigen::Isometry3d::Identity());
+    if (camera.images.frames.empty() || camera.HasPose()) continue;
+    const auto& reason = std::get<experiment::NeedsCalibration>(camera.pose).reason;
+    if (scene.why_blind.empty()) scene.why_blind = reason;
+  }
+  scene.frames = JoinFrames(used_ns);
+  if (scene.frames.empty()) {
+    scene.frames = JoinFrames(all_ns);
+  } else {
+    scene.why_blind.clear();
+  }
+  if (scene.frames.empty()) OpenImages(recording);  // throws what is wrong with it
+  return scene;
+}
 
 int ShapeReplay::EstimateDepthBias(const Recording& recording) {
   return EstimateDepthBias(recording, Frames{.contact_free = true}).frames;
@@ -81,11 +131,9 @@ ShapeReplay::FirstFrames ShapeReplay::EstimateDepthBiasFromStart(const Recording
 
 ShapeReplay::FirstFrames ShapeReplay::EstimateDepthBias(const Recording& recording,
                                                         const Frames& frames) {
-  const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
-  if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return {};
-  const ReplayCount count =
-      Run({recording, OpenImages(recording), std::get<Eigen::Isometry3d>(pose)}, frames,
-          [](const ForceEstimate&) {});
+  const Scene scene = Open(recording);
+  if (!scene.why_blind.empty()) return {};
+  const ReplayCount count = Run(scene, frames, [](const ForceEstimate&) {});
   bias_recordings_[epoch_] = &recording;
   return {.frames = count.done, .ends_with_contact = count.ends_with_contact};
 }
@@ -99,12 +147,16 @@ std::vector<ShapeReplay::BiasRecording> ShapeReplay::JudgeBiasRecordings() const
 }
 
 ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate& take) {
-  auto images = OpenImages(recording);
-  const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
-  if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
-    return RefuseEach(images, missing->reason, take);
+  const Scene scene = Open(recording);
+  if (scene.why_blind.empty()) return Run(scene, {}, take);
+  ForceEstimate refused;
+  refused.status = Status(StatusCode::kNoCalibration, scene.why_blind);
+  for (const JointFrame& frame : scene.frames) {
+    refused.t_s = static_cast<double>(frame.t_ns) / kNsPerSecond;
+    take(refused);
   }
-  return Run({recording, std::move(images), std::get<Eigen::Isometry3d>(pose)}, {}, take);
+  const int count = static_cast<int>(scene.frames.size());
+  return {.done = count, .total = count};
 }
 
 ReplayCount ShapeReplay::Run(const Scene& scene, const Frames& frames, const TakeEstimate& take) {
@@ -112,35 +164,56 @@ ReplayCount ShapeReplay::Run(const Scene& scene, const Frames& frames, const Tak
                              inputs_.model->ChamberNames());
   const Eigen::Matrix3d R_base = experiment::BaseRotation(scene.recording);
   inputs_.model->SetGravity(R_base.transpose() * gravity_m_s2_);
-  perception_.set_camera(scene.images.camera);
+  std::vector<std::optional<rgbd::RgbdCamera>> cameras;
+  for (const SceneCamera& camera : scene.cameras) {
+    cameras.push_back(camera.IsUsed() ? std::optional(camera.images.camera) : std::nullopt);
+  }
+  perception_.open(cameras);
   ++epoch_;
   if (inputs_.expect_posture) ExpectPosture(scene);
   std::vector<std::size_t> chosen =
-      ChosenFrames(scene.images, frames.contact_free ? 0.0 : inputs_.limits.rate_Hz);
+      ChosenFrames(scene.frames, frames.contact_free ? 0.0 : inputs_.limits.rate_Hz);
   chosen.resize(std::min(chosen.size(), At(frames.most)));
   ReplayCount count{.done = 0, .total = static_cast<int>(chosen.size())};
   ProgressLine progress("frames", count.total);
   progress.SetAdvice(AdviceWhereSlow(inputs_.model->body()));
-  rgbd::RgbdFrame frame;
   for (const std::size_t i : chosen) {
     if (inputs_.limits.StopRequested()) break;
-    scene.images.Read(i, &frame);
-    frame.stamp_ns = scene.images.frames[i].t_ns;
-    const perception::Observation& observation = Perceive(scene, frame);
+    const perception::JointObservation& observation = Perceive(scene, scene.frames[i]);
     count.ends_with_contact = frames.until_contact && !observation.contacts.empty();
     if (count.ends_with_contact) break;
     take(Step(scene, observation, frames.contact_free));
     progress.Update(++count.done);
   }
   inputs_.model->SetGravity(gravity_m_s2_);
+  chosen.resize(At(count.done));
+  NoteMissing(scene, chosen);
   return count;
+}
+
+/// Of an experiment with several cameras.
+void ShapeReplay::NoteMissing(const Scene& scene, const std::vector<std::size_t>& frames) {
+  for (std::size_t k = 0; k < scene.cameras.size() && scene.cameras.size() > 1; ++k) {
+    const std::string camera = scene.recording.name + ": " +
+                               (k == 0 ? "the first camera" : "camera '" + names_[k - 1] + "'");
+    if (!scene.cameras[k].images.frames.empty() && !scene.cameras[k].HasPose()) {
+      notes_.push_back(camera + " is not used: its pose is not known");
+      continue;
+    }
+    const auto missing = std::count_if(frames.begin(), frames.end(), [&](std::size_t i) {
+      return !scene.frames[i].frames[k].has_value();
+    });
+    if (missing == 0) continue;
+    notes_.push_back(camera + " has no image in " + std::to_string(missing) + " of " +
+                     std::to_string(frames.size()) + " frames: the other cameras were used");
+  }
 }
 
 /// The equilibrium under the commands and known loads of the first frame. Where none is found, the
 /// shape of the frame before stays.
 void ShapeReplay::ExpectPosture(const Scene& scene) {
   robot::RobotModel& model = *inputs_.model;
-  const double t_s = static_cast<double>(scene.images.frames.front().t_ns) / kNsPerSecond;
+  const double t_s = static_cast<double>(scene.frames.front().t_ns) / kNsPerSecond;
   const auto cables = force_estimation::CablesAt(scene.recording, model, inputs_.cable_input, t_s);
   fem::StaticState state = model.RestState();
   const Status status =
@@ -149,43 +222,52 @@ void ShapeReplay::ExpectPosture(const Scene& scene) {
 }
 
 const ForceEstimate& ShapeReplay::Step(const Scene& scene,
-                                       const perception::Observation& observation,
+                                       const perception::JointObservation& observation,
                                        bool contact_free) {
   const double t_s = static_cast<double>(observation.stamp_ns) / kNsPerSecond;
   force_estimation::PerceivedShape shape;
-  shape.frame = MakeShapeFrame(observation, scene.T_robot_camera);
+  shape.frame = MakeShapeFrame(observation, scene.poses);
   shape.frame.t_s = t_s;
   shape.frame.cables =
       force_estimation::CablesAt(scene.recording, *inputs_.model, inputs_.cable_input, t_s);
   shape.frame.epoch = epoch_;
   shape.frame.untouched = contact_free;
-  shape.perception = observation.frame.status;
+  shape.perception = observation.status();
   shape.loads = force_estimation::SitesOfLoads(scene.recording.loads, t_s);
   const ForceEstimate& estimate = pipeline_->Update(std::move(shape)).estimate;
   pipeline_->PrepareNext();
   return estimate;
 }
 
-const perception::Observation& ShapeReplay::Perceive(const Scene& scene,
-                                                     const rgbd::RgbdFrame& frame) {
+const perception::JointObservation& ShapeReplay::Perceive(const Scene& scene,
+                                                          const JointFrame& joint) {
   const Eigen::Matrix3Xf nodes_m = pipeline_->PredictedNodes_m();
-  std::optional<perception::PredictedSurface> predicted;
-  if (nodes_m.cols() > 0) {
-    predicted = perception::MakePredictedSurface(nodes_m, triangles_, scene.T_robot_camera);
+  std::vector<perception::CameraFrame> frames(scene.cameras.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    frames[k].T_robot_camera = scene.poses[k];
+    if (!joint.frames[k]) continue;
+    scene.cameras[k].images.Read(*joint.frames[k], &frames_[k]);
+    frames_[k].stamp_ns = joint.t_ns;
+    frames[k].images = &frames_[k];
+    if (nodes_m.cols() == 0) continue;
+    predicted_[k] = perception::MakePredictedSurface(nodes_m, triangles_, scene.poses[k]);
+    frames[k].predicted = &predicted_[k];
   }
-  return perception_.update(frame, predicted ? &*predicted : nullptr);
+  return perception_.update(joint.t_ns, frames);
 }
 
-force_estimation::ShapeFrame MakeShapeFrame(const perception::Observation& observation,
-                                            const Eigen::Isometry3d& T_robot_camera) {
+force_estimation::ShapeFrame MakeShapeFrame(const perception::JointObservation& observation,
+                                            const force_estimation::CameraPoses& poses) {
   force_estimation::ShapeFrame frame;
-  frame.cloud = observation.frame.robot;
-  frame.T_robot_camera = T_robot_camera;
+  frame.views.clear();
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    frame.views.push_back({observation.views[k].frame.robot, poses[k]});
+  }
   for (const perception::DetectedContact& contact : observation.contacts) {
     frame.contacts.push_back(
         force_estimation::InRobotFrame({contact.name, contact.position_m, contact.covariance_m2,
                                         contact.extent_m, contact.point_count},
-                                       T_robot_camera));
+                                       poses.front()));
   }
   return frame;
 }

@@ -4,16 +4,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/replay_perception.hpp"
+#include "components/palpate/images/joint_frames.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -23,6 +26,8 @@ namespace palpate::command {
 /// Passes depth and colour images of recordings through perception and
 /// force_estimation::ShapePipeline, as palpate-perception and palpate-force-estimation do. All
 /// recordings share one perception and one pipeline: the depth bias of one holds for the next.
+/// Frames of several cameras are joined by their times; a camera that is missing, or whose pose is
+/// unknown, costs accuracy only.
 class ShapeReplay {
  public:
   struct Inputs {
@@ -62,7 +67,12 @@ class ShapeReplay {
   /// robot does not have.
   ReplayCount Estimate(const experiment::Recording& recording, const TakeEstimate& take);
 
+  /// What there is to say of the cameras since the last call: which were not used, and in how many
+  /// frames they were missing.
+  std::vector<std::string> TakeNotes() { return std::exchange(notes_, {}); }
+
  private:
+  struct SceneCamera;
   struct Scene;
 
   /// The frames of a recording that are processed, and as what.
@@ -73,24 +83,31 @@ class ShapeReplay {
   };
 
   FirstFrames EstimateDepthBias(const experiment::Recording& recording, const Frames& frames);
+  Scene Open(const experiment::Recording& recording);
   ReplayCount Run(const Scene& scene, const Frames& frames, const TakeEstimate& take);
   void ExpectPosture(const Scene& scene);
   const force_estimation::ForceEstimate& Step(const Scene& scene,
-                                              const perception::Observation& observation,
+                                              const perception::JointObservation& observation,
                                               bool contact_free);
-  const perception::Observation& Perceive(const Scene& scene, const rgbd::RgbdFrame& frame);
+  const perception::JointObservation& Perceive(const Scene& scene, const JointFrame& joint);
+  void NoteMissing(const Scene& scene, const std::vector<std::size_t>& frames);
 
   Inputs inputs_;
+  std::vector<std::string> names_;                ///< of the cameras beside the first
+  std::vector<experiment::Experiment> of_names_;  ///< as each of them alone recorded it
   ReplayPerception perception_;
   std::unique_ptr<force_estimation::ShapePipeline> pipeline_;
   Eigen::Matrix3Xi triangles_;
   Eigen::Vector3d gravity_m_s2_;
-  std::uint32_t epoch_ = 0;  ///< recordings that were opened
+  std::uint32_t epoch_ = 0;                              ///< recordings that were opened
+  std::vector<rgbd::RgbdFrame> frames_;                  ///< [cameras] the last ones that were read
+  std::vector<perception::PredictedSurface> predicted_;  ///< [cameras]
+  std::vector<std::string> notes_;
   std::map<std::uint32_t, const experiment::Recording*> bias_recordings_;  ///< by epoch
 };
 
-/// The observation in the robot's frame, without cables and time.
-force_estimation::ShapeFrame MakeShapeFrame(const perception::Observation& observation,
-                                            const Eigen::Isometry3d& T_robot_camera);
+/// The observation in the robot's frame, without cables and time. `poses`: of all its cameras.
+force_estimation::ShapeFrame MakeShapeFrame(const perception::JointObservation& observation,
+                                            const force_estimation::CameraPoses& poses);
 
 }  // namespace palpate::command

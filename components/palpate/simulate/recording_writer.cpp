@@ -50,8 +50,17 @@ RecordingWriter::RecordingWriter(const robot::RobotDescription& robot,
       folder_{std::move(folder)} {
   experiment::CreateFolder(folder_);
   if (scenario.TakesPictures()) {
-    experiment::CreateFolder(folder_ / "depth");
-    if (scenario.camera->camera.color.width_px > 0) experiment::CreateFolder(folder_ / "color");
+    cameras_.push_back({folder_, 0});
+    for (const scenario::FurtherCamera& camera : scenario.further_cameras) {
+      cameras_.push_back(
+          {folder_ / "cameras" / camera.name, std::llround(1e9 * camera.clock_offset_s)});
+    }
+  }
+  for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    const rgbd::RgbdCamera camera = scenario.WithCamera(k).camera->camera;
+    experiment::CreateFolder(cameras_[k].folder / "depth");
+    if (camera.color.width_px > 0) experiment::CreateFolder(cameras_[k].folder / "color");
+    if (k > 0) WriteFile(cameras_[k].folder / "camera.yaml", rgbd::FormatCameraFile(camera));
   }
   for (const robot::CableSettings& cable : robot.cables) {
     for (const ActuatorQuantity quantity :
@@ -103,10 +112,11 @@ void RecordingWriter::AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m
   markers_.frames.push_back(std::move(frame));
 }
 
-void RecordingWriter::AddImage(const rgbd::RgbdFrame& frame) {
-  const std::string name = std::to_string(frame.stamp_ns) + ".png";
-  rgbd::WriteDepthPng(folder_ / "depth" / name, frame.depth);
-  if (!frame.color.empty()) rgbd::WriteColorPng(folder_ / "color" / name, frame.color);
+void RecordingWriter::AddImage(std::size_t camera, const rgbd::RgbdFrame& frame) {
+  const auto& [folder, clock_offset_ns] = cameras_.at(camera);
+  const std::string name = std::to_string(frame.stamp_ns + clock_offset_ns) + ".png";
+  rgbd::WriteDepthPng(folder / "depth" / name, frame.depth);
+  if (!frame.color.empty()) rgbd::WriteColorPng(folder / "color" / name, frame.color);
 }
 
 void RecordingWriter::Finish(double begin_s) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -28,12 +30,18 @@ class RecordingWriter {
   void AddCables(double t_s, const std::vector<virtual_robot::CableReading>& readings);
   /// [3 x markers] m, in the measurement frame without noise, which is added here; NaN: not seen.
   void AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m, scenario::Random* noise);
-  void AddImage(const rgbd::RgbdFrame& frame);
+  /// Of the camera of this number; 0: the first. `frame` has the time of the bench as its stamp.
+  void AddImage(std::size_t camera, const rgbd::RgbdFrame& frame);
 
   /// `begin_s`: of the recording, on the clock of the experiment.
   void Finish(double begin_s);
 
  private:
+  struct CameraFolder {
+    std::filesystem::path folder;
+    std::int64_t clock_offset_ns = 0;
+  };
+
   experiment::Recording recording_;
   const robot::RobotDescription& robot_;
   const scenario::Scenario& scenario_;
@@ -41,6 +49,7 @@ class RecordingWriter {
   std::filesystem::path folder_;
   experiment::Actuation actuation_;
   experiment::MarkerTracks markers_;
+  std::vector<CameraFolder> cameras_;  ///< by number
 };
 
 /// loads.csv of the planned weights: nominal weight, in the robot frame, which turns with the base.

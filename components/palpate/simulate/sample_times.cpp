@@ -35,9 +35,10 @@ class Instants {
     return &instant;
   }
 
-  void AtRate(double rate_hz, bool Instant::*what) {
-    for (int k = 0; k / rate_hz < duration_s_; ++k) {
-      if (Instant* instant = At(k / rate_hz)) instant->*what = true;
+  template <typename Mark>
+  void AtRate(double rate_hz, double delay_s, const Mark& mark) {
+    for (int k = 0; delay_s + k / rate_hz < duration_s_; ++k) {
+      if (Instant* instant = At(delay_s + k / rate_hz)) mark(instant);
     }
   }
 
@@ -61,8 +62,17 @@ std::vector<Instant> SampleTimes(const scenario::Schedule& schedule, int recordi
   const scenario::Scenario& scenario = schedule.scenario();
   Instants instants(schedule.Begin_s(recording), plan.duration_s);
   instants.At(0.0);
-  if (scenario.markers) instants.AtRate(scenario.markers->rate_hz, &Instant::markers);
-  if (scenario.TakesPictures()) instants.AtRate(scenario.camera->rate_hz, &Instant::image);
+  if (scenario.markers) {
+    instants.AtRate(scenario.markers->rate_hz, 0.0, [](Instant* at) { at->markers = true; });
+  }
+  if (scenario.TakesPictures()) {
+    instants.AtRate(scenario.camera->rate_hz, 0.0, [](Instant* at) { at->cameras.push_back(0); });
+    for (std::size_t k = 0; k < scenario.further_cameras.size(); ++k) {
+      const scenario::FurtherCamera& camera = scenario.further_cameras[k];
+      instants.AtRate(camera.rate_hz, camera.delay_s,
+                      [k](Instant* at) { at->cameras.push_back(k + 1); });
+    }
+  }
   for (const scenario::CommandRow& row : plan.commands.rows) instants.At(row.t_s);
   for (const scenario::HungWeight& weight : plan.weights) instants.At(weight.t_s);
   for (const scenario::ToolPath& path : plan.tool_paths) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,16 +13,16 @@ namespace palpate::command {
 
 /// A sample of a recording: a time at which the simulation stops.
 struct Instant {
-  std::int64_t t_ns = 0;  ///< on the bench's clock, which is that of the experiment
-  bool markers = false;   ///< the markers are measured
-  bool image = false;     ///< the camera takes a frame
+  std::int64_t t_ns = 0;             ///< on the bench's clock, which is that of the experiment
+  bool markers = false;              ///< the markers are measured
+  std::vector<std::size_t> cameras;  ///< numbers of those that take a frame; 0: the first
 
   /// The time in files and for the simulation; reads back as the same nanosecond.
   double t_s() const { return static_cast<double>(t_ns) / 1e9; }
 };
 
 /// All samples of a recording in order of time, from its beginning to before its end: those of
-/// markers and camera at their rates, and those at which commands, tools and weights change. They
+/// markers and cameras at their rates, and those at which commands, tools and weights change. They
 /// depend on the scenario alone, never on its effects.
 std::vector<Instant> SampleTimes(const scenario::Schedule& schedule, int recording);
 

@@ -36,8 +36,7 @@ class VirtualBench : public SimulatedBench {
     skin.rest_m = robot_.mesh().nodes_m;
     skin.triangles = robot_.boundary().DrawnTriangles();
     skin.markers_m = robot_.MarkerPositions_m();  // nothing has moved yet
-    camera_ =
-        std::make_unique<virtual_camera::VirtualCamera>(scenario, std::move(skin), effects, seed);
+    cameras_ = virtual_camera::MakeCameras(scenario, skin, effects, seed);
   }
 
   Status Start(double t_s, const scenario::BenchInputs& inputs) override {
@@ -70,7 +69,7 @@ class VirtualBench : public SimulatedBench {
 
   void TakeFrame(const scenario::BenchInputs& inputs, const CameraInput& input,
                  rgbd::RgbdFrame* frame) override {
-    PALPATE_CHECK(camera_ != nullptr, "the scenario has no camera");
+    PALPATE_CHECK(input.camera < cameras_.size(), input.camera, cameras_.size());
     const Eigen::VectorXd& positions_m = robot_.positions_m();
     view_.t_s = input.t_s;
     view_.nodes_m =
@@ -78,7 +77,7 @@ class VirtualBench : public SimulatedBench {
     view_.tools = inputs.tools;
     view_.T_robot_camera = input.T_robot_camera;
     view_.recording = input.recording;
-    camera_->Take(view_, frame);
+    cameras_[input.camera]->Take(view_, frame);
   }
 
   Eigen::Isometry3d TrueCameraPose(const CameraInput& input) const override {
@@ -93,7 +92,7 @@ class VirtualBench : public SimulatedBench {
   Eigen::Matrix3Xd rest_normals_;
   rgbd::CameraModel data_sheet_;
   double grazing_cosine_ = 0.0;
-  std::unique_ptr<virtual_camera::VirtualCamera> camera_;
+  std::vector<std::unique_ptr<virtual_camera::VirtualCamera>> cameras_;
   virtual_camera::View view_;
 };
 

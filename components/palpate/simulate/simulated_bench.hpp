@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,9 +21,10 @@
 
 namespace palpate::command {
 
-/// Inputs of the virtual camera at one time.
+/// Inputs of a virtual camera at one time.
 struct CameraInput {
-  double t_s = 0.0;  ///< since the bench was switched on
+  std::size_t camera = 0;  ///< number; 0: the first
+  double t_s = 0.0;        ///< since the bench was switched on
   int recording = 0;
   /// The nominal camera pose; hidden effects are added to it.
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();

@@ -146,9 +146,11 @@ class Run {
     time_s_ = t_s;
   }
 
-  CameraInput CameraInputAt(int index, double t_s) const {
-    CameraInput input{.t_s = t_s, .recording = index};
-    if (scenario_.camera) {
+  CameraInput CameraInputAt(int index, double t_s, std::size_t camera = 0) const {
+    CameraInput input{.camera = camera, .t_s = t_s, .recording = index};
+    if (camera > 0) {
+      input.T_robot_camera = scenario_.further_cameras[camera - 1].T_robot_camera;
+    } else if (scenario_.camera) {
       const auto& plan = scenario_.recordings[At(index)];
       input.T_robot_camera = plan.T_robot_camera.value_or(scenario_.camera->T_robot_camera);
     }
@@ -169,13 +171,14 @@ class Run {
       writer->AddMarkers(t_s, measured_m, &marker_noise_);
       ++counts_.marker_frames;
     }
-    if (instant.image) {
-      bench_->TakeFrame(inputs, input, &frame_);
+    for (const std::size_t camera : instant.cameras) {
+      bench_->TakeFrame(inputs, CameraInputAt(index, t_s, camera), &frame_);
       frame_.stamp_ns = instant.t_ns;
-      writer->AddImage(frame_);
+      writer->AddImage(camera, frame_);
       ++counts_.images;
     }
-    if (instant.markers || instant.image) truth->frames.push_back({t_s, bench_->Forces()});
+    if (instant.markers || !instant.cameras.empty())
+      truth->frames.push_back({t_s, bench_->Forces()});
   }
 
   void WriteSettings(const std::string& answer_sha256) const {
@@ -183,8 +186,13 @@ class Run {
     experiment.robot = job_.robot.file;
     if (scenario_.camera) {
       experiment.frame = experiment::MeasurementFrame::kCamera;
-      if (job_.tell_camera_pose || !scenario_.TakesPictures()) {
-        experiment.T_robot_camera = scenario_.camera->T_robot_camera;
+      const bool tells_pose = job_.tell_camera_pose || !scenario_.TakesPictures();
+      if (tells_pose) experiment.T_robot_camera = scenario_.camera->T_robot_camera;
+      for (const scenario::FurtherCamera& camera : scenario_.further_cameras) {
+        experiment::CameraSettings& settings = experiment.cameras.emplace_back();
+        settings.name = camera.name;
+        if (tells_pose) settings.T_robot_camera = camera.T_robot_camera;
+        if (camera.clock_offset_s != 0.0) settings.clock_offset_s = camera.clock_offset_s;
       }
     }
     if (scenario_.TakesPictures()) {

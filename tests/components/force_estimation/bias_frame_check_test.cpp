@@ -33,10 +33,10 @@ class BiasFrameCheckTest : public testing::Test {
     const rgbd::SensedCloud cloud = Cast(scene_, Moved(scene_.rest_x_m, push), BenchPose() * error);
     for (int k = 0; k < frames; ++k) {
       ShapeFrame frame = FrameOf(cloud);
-      AddDepthNoise(random_, &frame.cloud);
-      frame.cloud.points_m *= 1.003f;
+      AddDepthNoise(random_, &frame.views[0].cloud);
+      frame.views[0].cloud.points_m *= 1.003f;
       check_.Add(bias_, epoch, matching_.Match(frame, scene_.rest_x_m), scene_.rest_x_m,
-                 frame.T_robot_camera);
+                 frame.views[0].T_robot_camera);
     }
   }
   std::vector<bool> ContactFree() const {
@@ -90,7 +90,7 @@ TEST_F(BiasFrameCheckTest, AloneATouchedSequenceIsFoundByThePriorOfTheCamerasErr
 
 TEST_F(BiasFrameCheckTest, ASequenceWithoutTheRobotIsNotContactFree) {
   ShapeFrame empty = FrameOf(Cast(scene_, scene_.rest_x_m, BenchPose()));
-  empty.cloud.points_m.array() += 10.0f;
+  empty.views[0].cloud.points_m.array() += 10.0f;
   check_.Add(bias_, 1, matching_.Match(empty, scene_.rest_x_m), scene_.rest_x_m, BenchPose());
   ASSERT_THAT(ContactFree(), ElementsAre(false));
   EXPECT_EQ(check_.Judge()[0].frames, 0);

@@ -18,7 +18,8 @@ constexpr double kNoise_m = 1e-4;
 class Average : public testing::Test {
  protected:
   Average() {
-    const DepthBias bias(kFeatures, shape_);
+    CameraBiases bias(kFeatures, shape_);
+    bias.HaveCameras(1);
     std::vector<correspondence::FeatureMatch> matches(kFeatures);
     for (correspondence::FeatureMatch& match : matches) {
       match.state = correspondence::MatchState::kMatched;
@@ -27,7 +28,7 @@ class Average : public testing::Test {
       match.normal = Eigen::Vector3d::UnitZ();
       match.row = {.nodes = {0}, .coefficients = {Eigen::Vector3d::UnitZ()}};
     }
-    targets_.Build(matches, bias, Eigen::Isometry3d::Identity(), Eigen::VectorXd::Zero(3),
+    targets_.Build(matches, bias, {Eigen::Isometry3d::Identity()}, Eigen::VectorXd::Zero(3),
                    Eigen::VectorXd::Zero(3), {});
   }
 
@@ -41,7 +42,7 @@ class Average : public testing::Test {
   static constexpr int kFeatures = 40;
   ShapeConfig shape_;
   ShapeTargets targets_{shape_, 0.01};
-  ShapeAverage average_{kFeatures};
+  ShapeAverage average_;
   std::mt19937 random_{3};
 };
 

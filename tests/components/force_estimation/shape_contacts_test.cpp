@@ -40,7 +40,8 @@ class Contacts : public testing::Test {
     for (int k = 0; k < 6; ++k) {
       const ShapeFrame frame = FrameOf(free_);
       EXPECT_TRUE(fit_.Match(frame).ok());
-      bias_.Learn(fit_.matches(), free_.x_m, frame.T_robot_camera);
+      bias_.HaveCameras(1);
+      bias_.Learn(fit_.matches(), free_.x_m, frame.Poses(), 0);
     }
     fit_.SetBiasShape(free_.x_m);
     EXPECT_TRUE(bias_.Finish().ok());
@@ -61,9 +62,9 @@ class Contacts : public testing::Test {
   ShapeFrame FrameOf(const fem::StaticState& state) {
     ShapeFrame frame;
     frame.t_s = (t_s_ += 0.033);
-    frame.T_robot_camera = BenchPose();
-    frame.cloud = Cast(scene_, state.x_m, frame.T_robot_camera);
-    AddDepthNoise(random_, &frame.cloud, noise_);
+    frame.views[0].T_robot_camera = BenchPose();
+    frame.views[0].cloud = Cast(scene_, state.x_m, frame.views[0].T_robot_camera);
+    AddDepthNoise(random_, &frame.views[0].cloud, noise_);
     frame.cables = cables_;
     return frame;
   }
@@ -90,7 +91,7 @@ class Contacts : public testing::Test {
   ShapeFitter fit_;
   HiddenContacts hidden_;
   ContactReport report_;
-  DepthBias bias_;
+  CameraBiases bias_;
   std::vector<robot::ActuatorCommand> cables_;
   double t_s_ = 0.0;
   float noise_;

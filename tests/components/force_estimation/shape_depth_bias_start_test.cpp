@@ -96,7 +96,7 @@ TEST(DepthBiasFromCalibration, IsNoSurerAfterAFrameItMayHaveComeFrom) {
   const double before_m = bias.CorrectionSigma_m(0, match, pose);
   match.sigma_m = before_m;
   match.target_m = bias.Correction_m(0, match, pose);
-  bias.Learn({match}, Eigen::VectorXd(), pose);
+  bias.Learn(std::vector{match}, Eigen::VectorXd(), pose);
   ASSERT_TRUE(bias.Finish().ok());
   EXPECT_NEAR(bias.CorrectionSigma_m(0, match, pose) / before_m, 1.0, 1e-6);
 }

@@ -41,7 +41,7 @@ rgbd::SensedCloud BiasedCloud(const Eigen::VectorXd& x_m) {
 
 ShapeFrame NoisyFrame(const rgbd::SensedCloud& cloud, std::mt19937& random) {
   ShapeFrame frame = FrameOf(cloud);
-  AddDepthNoise(random, &frame.cloud);
+  AddDepthNoise(random, &frame.views[0].cloud);
   return frame;
 }
 
@@ -141,12 +141,12 @@ TEST(DepthBias, NeedsThreeFeatures) {
   match.position_m = {0.0, 0.0, 0.4};
   const Eigen::VectorXd x_m = Eigen::VectorXd::Zero(3);
   const correspondence::FeatureMatch hidden;
-  bias.Learn({hidden, hidden, hidden, hidden}, x_m, BenchPose());
+  bias.Learn(std::vector{hidden, hidden, hidden, hidden}, x_m, BenchPose());
   EXPECT_EQ(bias.frames(), 0);
-  bias.Learn({match, hidden, match, hidden}, x_m, BenchPose());
+  bias.Learn(std::vector{match, hidden, match, hidden}, x_m, BenchPose());
   EXPECT_EQ(bias.Finish().code(), StatusCode::kNoCalibration);
   EXPECT_FALSE(bias.known());
-  bias.Learn({match, hidden, match, match}, x_m, BenchPose());
+  bias.Learn(std::vector{match, hidden, match, match}, x_m, BenchPose());
   EXPECT_TRUE(bias.Finish().ok());
   EXPECT_TRUE(bias.known());
   EXPECT_EQ(bias.frames(), 2);

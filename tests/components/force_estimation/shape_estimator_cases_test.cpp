@@ -48,9 +48,9 @@ class ShapeEstimatorCases : public testing::Test {
   ShapeFrame Frame(bool contacts_seen) {
     ShapeFrame frame;
     frame.t_s = (t_s_ += 0.033);
-    frame.T_robot_camera = BenchPose();
-    frame.cloud = Cast(scene_, state_.x_m, frame.T_robot_camera);
-    AddDepthNoise(random_, &frame.cloud);
+    frame.views[0].T_robot_camera = BenchPose();
+    frame.views[0].cloud = Cast(scene_, state_.x_m, frame.views[0].T_robot_camera);
+    AddDepthNoise(random_, &frame.views[0].cloud);
     frame.cables = cables_;
     if (contacts_seen) frame.contacts = seen_;
     return frame;
@@ -118,9 +118,9 @@ TEST_F(ShapeEstimatorCases, WithoutBiasFramesForcesAreWithinTheirWiderIntervals)
   ForceEstimate estimate;
   for (int k = 0; k < 2; ++k) {
     ShapeFrame frame = Frame(true);
-    frame.cloud = Cast(scene_, state_.x_m, BenchPose() * error);
-    AddDepthNoise(random_, &frame.cloud);
-    frame.cloud.points_m *= 1.003f;
+    frame.views[0].cloud = Cast(scene_, state_.x_m, BenchPose() * error);
+    AddDepthNoise(random_, &frame.views[0].cloud);
+    frame.views[0].cloud.points_m *= 1.003f;
     estimate = estimator.Update(frame);
   }
   ASSERT_TRUE(estimate.status.ok()) << estimate.status.message();

@@ -128,8 +128,7 @@ inline double Residual_m(const correspondence::FeatureMatch& match, const Eigen:
 inline ShapeFrame FrameOf(const rgbd::SensedCloud& cloud,
                           const Eigen::Isometry3d& T_robot_camera = BenchPose()) {
   ShapeFrame frame;
-  frame.cloud = cloud;
-  frame.T_robot_camera = T_robot_camera;
+  frame.views[0] = {cloud, T_robot_camera};
   return frame;
 }
 

@@ -89,7 +89,7 @@ TEST(SurfaceMatching, DoesNotDependOnTheRobotFrame) {
   motion.rotate(Eigen::AngleAxisd(1.1, Eigen::Vector3d(2, -1, 2) / 3.0));
   motion.translation() = Eigen::Vector3d(0.3, -0.7, 0.2);
   ShapeFrame moved = frame;
-  moved.T_robot_camera = motion * frame.T_robot_camera;
+  moved.views[0].T_robot_camera = motion * frame.views[0].T_robot_camera;
   const Eigen::VectorXd moved_x_m = Moved(scene.rest_x_m, [&](const Eigen::Vector3d& rest_m) {
     return Eigen::Vector3d(motion * rest_m - rest_m);
   });
@@ -163,7 +163,7 @@ TEST(PatchMatching, ResidualsScatterAsTheirSigmasSay) {
   Eigen::ArrayXd count = sum;
   for (int seed = 0; seed < kSeeds; ++seed) {
     ShapeFrame frame = FrameOf(exact);
-    AddDepthNoise(random, &frame.cloud);
+    AddDepthNoise(random, &frame.views[0].cloud);
     const auto& matches = matching.Match(frame, scene.rest_x_m);
     for (int k = 0; k < scene.features->Count(); ++k) {
       const correspondence::FeatureMatch& match = matches[static_cast<size_t>(k)];

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/shape_targets.hpp"
 
 namespace palpate::force_estimation {
@@ -20,6 +20,7 @@ class Targets : public testing::Test {
   Targets() : targets_(config_, 0.01), bias_(kFeatures, config_) {
     for (int f = 0; f < kFeatures; ++f) {
       correspondence::FeatureMatch& match = matches_.emplace_back();
+      match.feature = f;
       match.state = correspondence::MatchState::kMatched;
       match.row.nodes = {f};
       match.row.coefficients = {Eigen::Vector3d::UnitX()};
@@ -27,7 +28,8 @@ class Targets : public testing::Test {
       match.normal = Eigen::Vector3d::UnitX();
       match.position_m = {0.01 * f, 0.0, 0.45};
     }
-    for (int k = 0; k < 40; ++k) bias_.Learn(matches_, x_m_, kHere);
+    bias_.HaveCameras(1);
+    for (int k = 0; k < 40; ++k) bias_.Learn(matches_, x_m_, kHere, 0);
     EXPECT_TRUE(bias_.Finish().ok());
   }
 
@@ -39,12 +41,12 @@ class Targets : public testing::Test {
     return targets_.targets().weight[row] / targets_.targets().weight[0];
   }
 
-  const Eigen::Isometry3d kHere = Eigen::Isometry3d::Identity();
+  const CameraPoses kHere = {Eigen::Isometry3d::Identity()};
   ShapeConfig config_;
   Eigen::VectorXd x_m_ = Eigen::VectorXd::Zero(3 * kFeatures);
   std::vector<correspondence::FeatureMatch> matches_;
   ShapeTargets targets_;
-  DepthBias bias_;
+  CameraBiases bias_;
 };
 
 TEST_F(Targets, OnlyMatchedFeaturesAreRows) {

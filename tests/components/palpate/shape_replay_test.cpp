@@ -35,26 +35,34 @@ Eigen::Isometry3d LookingDown() {
 
 // A perception and an estimator that record their inputs and return given results.
 struct Fakes {
-  int cameras_opened = 0;
+  int times_opened = 0;
   std::vector<std::int64_t> stamps_ns;
   std::vector<std::optional<perception::PredictedSurface>> predictions;
   std::vector<ShapeFrame> frames;
   std::vector<Eigen::Vector3d> gravity_m_s2;
   std::vector<force_estimation::FeatureReport> features;
   int prepared = 0;
-  perception::Observation observation;
+  perception::CameraView view;  ///< of every camera
+  perception::JointObservation observation;
+  std::vector<std::vector<bool>> has_image;  ///< [updates] of the cameras
   ForceEstimate estimate;
   std::function<void(ForceEstimate*)> answer = [](ForceEstimate*) {};
 
   ReplayPerception Perception() {
     ReplayPerception fake;
-    fake.set_camera = [this](const rgbd::RgbdCamera&) { ++cameras_opened; };
-    fake.update =
-        [this](const rgbd::RgbdFrame& frame,
-               const perception::PredictedSurface* predicted) -> const perception::Observation& {
-      stamps_ns.push_back(frame.stamp_ns);
-      observation.stamp_ns = frame.stamp_ns;
+    fake.open = [this](const std::vector<std::optional<rgbd::RgbdCamera>>& cameras) {
+      ++times_opened;
+      observation.views.resize(cameras.size(), view);
+    };
+    fake.update = [this](std::int64_t stamp_ns, const std::vector<perception::CameraFrame>& images)
+        -> const perception::JointObservation& {
+      stamps_ns.push_back(stamp_ns);
+      observation.stamp_ns = stamp_ns;
+      const perception::PredictedSurface* predicted = images[0].predicted;
       predictions.emplace_back(predicted ? std::optional(*predicted) : std::nullopt);
+      has_image.emplace_back();
+      for (const auto& camera : images) has_image.back().push_back(camera.images != nullptr);
+      for (auto& seen : observation.views) seen = view;
       return observation;
     };
     return fake;
@@ -81,7 +89,7 @@ class ShapeReplayTest : public testing::Test {
  protected:
   ShapeReplayTest() : model_(LoadRobot(WriteBarRobot(folder_))) {
     experiment_.T_robot_camera = LookingDown();
-    fake_.observation.frame.status = Status::Ok();
+    fake_.view.frame.status = Status::Ok();
     fake_.estimate.status = Status(StatusCode::kNoContact, "");
     fake_.estimate.x_m = Nodes(0.1);
   }
@@ -97,6 +105,17 @@ class ShapeReplayTest : public testing::Test {
         Eigen::Map<const Eigen::Matrix3Xd>(nodes_m.data(), 3, nodes_m.size() / 3).cast<float>();
     return perception::MakePredictedSurface(travelled, model_->body().boundary.DrawnTriangles(),
                                             LookingDown());
+  }
+  // The same images of a camera beside the first, `late_s` later.
+  experiment::CameraFiles FurtherImages(const Recording& first, const std::string& name,
+                                        double late_s) const {
+    experiment::CameraFiles camera;
+    camera.name = name;
+    camera.folder = first.folder;
+    camera.camera_file = first.camera_file;
+    camera.depth_images = first.depth_images;
+    for (auto& image : camera.depth_images) image.t_ns += std::llround(1e9 * late_s);
+    return camera;
   }
   // A recording with `count` frames from `t_s` on, 0.1 s apart.
   Recording Images(const std::string& name, RecordingKind kind, int count, double t_s = 1.0) const {
@@ -212,7 +231,7 @@ TEST_F(ShapeReplayTest, OnlyFramesForTheDepthBiasAreContactFree) {
   replay.Estimate(Images("b", RecordingKind::kRest, 1), [&](const ForceEstimate&) { ++taken; });
   EXPECT_THAT(ContactFree(), ElementsAre(true, true, false));
   EXPECT_EQ(taken, 1);
-  EXPECT_EQ(fake_.cameras_opened, 2);
+  EXPECT_EQ(fake_.times_opened, 2);
   EXPECT_TRUE(fake_.predictions[2]);  // the pipeline goes on from one recording to the next
   EXPECT_EQ(fake_.prepared, 3);
 }
@@ -220,9 +239,9 @@ TEST_F(ShapeReplayTest, OnlyFramesForTheDepthBiasAreContactFree) {
 TEST_F(ShapeReplayTest, TheFirstFramesAreContactFreeAsInTheProcess) {
   ShapeReplay replay = Replay(2);
   replay.Estimate(Images("a", RecordingKind::kFree, 1), ignore_);
-  fake_.observation.frame.status = Status(StatusCode::kNoRobotSeen, "too dark");
+  fake_.view.frame.status = Status(StatusCode::kNoRobotSeen, "too dark");
   replay.Estimate(Images("dark", RecordingKind::kFree, 1), ignore_);  // does not count
-  fake_.observation.frame.status = Status::Ok();
+  fake_.view.frame.status = Status::Ok();
   replay.Estimate(Images("b", RecordingKind::kFree, 2), ignore_);
   EXPECT_THAT(ContactFree(), ElementsAre(true, true, true, false));
 }
@@ -254,11 +273,11 @@ TEST_F(ShapeReplayTest, AContactGoesFromTheCamerasFrameIntoTheRobots) {
   contact.extent_m = {0.001, 0.002, 0.003};
   contact.point_count = 12;
   fake_.observation.contacts = {contact};
-  fake_.observation.frame.robot.points_m = Eigen::Matrix3Xf::Ones(3, 5);
+  fake_.view.frame.robot.points_m = Eigen::Matrix3Xf::Ones(3, 5);
   Replay().Estimate(Images("r", RecordingKind::kFree, 1), ignore_);
   const ShapeFrame& frame = fake_.frames.at(0);
-  EXPECT_EQ(frame.cloud.Count(), 5);
-  EXPECT_TRUE(frame.T_robot_camera.isApprox(LookingDown()));
+  EXPECT_EQ(frame.views[0].cloud.Count(), 5);
+  EXPECT_TRUE(frame.views[0].T_robot_camera.isApprox(LookingDown()));
   ASSERT_THAT(frame.contacts, SizeIs(1));
   EXPECT_EQ(frame.contacts[0].name, "contact_7");
   EXPECT_TRUE(frame.contacts[0].position_m.isApprox(Eigen::Vector3d(0.04, 0.0, 0.1), 1e-12));
@@ -300,7 +319,7 @@ TEST_F(ShapeReplayTest, WithoutACameraPoseEachFrameSaysSo) {
 }
 
 TEST_F(ShapeReplayTest, AFrameThatPerceptionRefusesKeepsItsReason) {
-  fake_.observation.frame.status = Status(StatusCode::kInvalidInput, "all depth is invalid");
+  fake_.view.frame.status = Status(StatusCode::kInvalidInput, "all depth is invalid");
   fake_.estimate.status = Status(StatusCode::kNoRobotSeen, "only 0 points");
   Replay().Estimate(Images("r", RecordingKind::kFree, 1), [&](const ForceEstimate& estimate) {
     EXPECT_EQ(estimate.status.code(), StatusCode::kInvalidInput);
@@ -316,6 +335,67 @@ TEST_F(ShapeReplayTest, ATiltedBaseTiltsGravityForItsRecordingOnly) {
   replay.Estimate(Images("b", RecordingKind::kFree, 1), ignore_);
   EXPECT_NEAR(fake_.gravity_m_s2[0].y(), -9.81, 1e-9);
   EXPECT_NEAR(fake_.gravity_m_s2[1].z(), -9.81, 1e-9);
+}
+
+TEST_F(ShapeReplayTest, FramesOfTwoCamerasAreJoinedOnOneClock) {
+  Recording recording = Images("r", RecordingKind::kFree, 3);
+  recording.cameras = {FurtherImages(recording, "back", 0.26)};  // 0.25 s of clock, 0.01 s late
+  experiment_.recordings = {recording};
+  experiment_.cameras = {{.name = "back",
+                          .T_robot_camera = LookingDown(),
+                          .T_robot_camera_error = {},
+                          .clock_offset_s = 0.25}};
+  ShapeReplay replay = Replay();
+  replay.Estimate(recording, ignore_);
+  ASSERT_THAT(fake_.frames, SizeIs(3));
+  EXPECT_THAT(fake_.has_image, Each(ElementsAre(true, true)));
+  EXPECT_THAT(fake_.stamps_ns, ElementsAre(1000000000, 1100000000, 1200000000));
+  EXPECT_THAT(fake_.frames[0].views, SizeIs(2));
+  EXPECT_THAT(replay.TakeNotes(), SizeIs(0));
+}
+
+TEST_F(ShapeReplayTest, ACameraThatIsMissingIsNamedAndTheOthersGoOn) {
+  Recording recording = Images("r", RecordingKind::kFree, 5);
+  recording.cameras = {FurtherImages(recording, "back", 0.0)};
+  auto& images = recording.cameras[0].depth_images;
+  images.erase(images.begin() + 1, images.begin() + 3);
+  experiment_.recordings = {recording};
+  experiment_.cameras = {{.name = "back",
+                          .T_robot_camera = LookingDown(),
+                          .T_robot_camera_error = {},
+                          .clock_offset_s = {}}};
+  ShapeReplay replay = Replay();
+  EXPECT_EQ(replay.Estimate(recording, ignore_).done, 5);
+  EXPECT_THAT(fake_.has_image, ElementsAre(ElementsAre(true, true), ElementsAre(true, false),
+                                           ElementsAre(true, false), ElementsAre(true, true),
+                                           ElementsAre(true, true)));
+  EXPECT_THAT(replay.TakeNotes(),
+              ElementsAre("r: camera 'back' has no image in 2 of 5 frames: the other cameras were "
+                          "used"));
+}
+
+TEST_F(ShapeReplayTest, TheFirstCameraMayBeTheOneThatIsMissing) {
+  Recording recording = Images("r", RecordingKind::kFree, 3);
+  recording.cameras = {FurtherImages(recording, "back", 0.0)};
+  recording.depth_images.clear();
+  experiment_.recordings = {recording};
+  experiment_.cameras = {{.name = "back",
+                          .T_robot_camera = LookingDown(),
+                          .T_robot_camera_error = {},
+                          .clock_offset_s = {}}};
+  EXPECT_EQ(Replay().Estimate(recording, ignore_).done, 3);
+  EXPECT_THAT(fake_.has_image, Each(ElementsAre(false, true)));
+}
+
+TEST_F(ShapeReplayTest, ACameraOfUnknownPoseIsNotUsed) {
+  Recording recording = Images("r", RecordingKind::kFree, 3);
+  recording.cameras = {FurtherImages(recording, "back", 0.0)};
+  experiment_.recordings = {recording};
+  ShapeReplay replay = Replay();
+  EXPECT_EQ(replay.Estimate(recording, ignore_).done, 3);
+  EXPECT_THAT(fake_.has_image, Each(ElementsAre(true, false)));
+  EXPECT_THAT(replay.TakeNotes(),
+              ElementsAre("r: camera 'back' is not used: its pose is not known"));
 }
 
 }  // namespace

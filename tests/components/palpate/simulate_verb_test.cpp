@@ -3,9 +3,11 @@
 
 #include "components/palpate/simulate_verb.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "components/palpate/simulate/sample_times.hpp"
+#include "libs/experiment/cameras.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
 #include "tests/components/palpate/simulate_fixture.hpp"
 
@@ -122,6 +124,29 @@ TEST_F(SimulateTest, WritesImagesWithTheDataSheetsCameraAndMarkersInItsFrame) {
   ASSERT_THAT(log_.moments, SizeIs(6));
   EXPECT_EQ(log_.moments[2].recording, 1);
   EXPECT_EQ(log_.moments[2].t_s, 1.3);
+}
+
+TEST_F(SimulateTest, FurtherCamerasHaveFoldersTimesAndClocksOfTheirOwn) {
+  const std::string further =
+      "cameras:\n  - {name: back, delay_s: 0.1, clock_offset_s: 5, depth: {width_px: 4, height_px: "
+      "3, fx_px: 3, fy_px: 3, cx_px: 1.5, cy_px: 1, unit_m: 0.001}, eye_m: [0, 1, 0], target_m: "
+      "[0, 0, 0], rate_hz: 4, noise: {sensor: none}}\n";
+  Scenario(kCamera + further + kMarkers + kRecordings);
+  options_.tell_camera_pose = true;
+  ASSERT_EQ(Run(), 0);
+  const experiment::Experiment experiment = Read();
+  ASSERT_THAT(experiment::FurtherCameras(experiment), testing::ElementsAre("back"));
+  const experiment::Experiment back = experiment::OfCamera(experiment, "back");
+  EXPECT_TRUE(back.T_robot_camera->translation().isApprox(Vector(0, 1, 0)));
+  const auto& files = experiment.recordings[1].cameras[0].depth_images;
+  ASSERT_FALSE(files.empty());
+  EXPECT_EQ(files[0].t_ns, 6'400'000'000);  // 1.3 s of the recording, 0.1 s late, 5 s of its clock
+  EXPECT_EQ(back.recordings[1].depth_images[0].t_ns, 1'400'000'000);
+  const auto of_back = [](const CameraInput& moment) { return moment.camera == 1; };
+  EXPECT_GT(std::count_if(log_.moments.begin(), log_.moments.end(), of_back), 3);
+  EXPECT_TRUE(std::find_if(log_.moments.begin(), log_.moments.end(), of_back)
+                  ->T_robot_camera.translation()
+                  .isApprox(Vector(0, 1, 0)));
 }
 
 TEST_F(SimulateTest, ADepthCameraMeasuresMarkersInItsFrameAndTakesNoPictures) {

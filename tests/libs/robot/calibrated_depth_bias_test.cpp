@@ -75,6 +75,27 @@ TEST_F(CalibratedDepthBiasTest, IsReadAsItWasWritten) {
   EXPECT_EQ(read.depth_bias->map.covariance, written.map.covariance);
 }
 
+TEST_F(CalibratedDepthBiasTest, OfFurtherCamerasIsReadAsItWasWritten) {
+  CalibrationFile written = Example();
+  written.cameras.resize(2);
+  written.cameras[0].name = "back";
+  written.cameras[0].pose.T_robot_camera.translation() = Eigen::Vector3d(0.1, -0.2, 1.0 / 3.0);
+  written.cameras[0].pose.translation_error_m = Eigen::Vector3d(1e-3, 2e-3, 3e-3);
+  written.cameras[0].pose.rotation_error_rad = Eigen::Vector3d(4e-3, 5e-3, 6e-3);
+  written.cameras[0].depth_bias = Bias();
+  written.cameras[1].name = "left";
+  WriteCalibrationFile(written, file_);
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  ASSERT_EQ(read.cameras.size(), 2u);
+  EXPECT_EQ(read.cameras[0].name, "back");
+  EXPECT_EQ(read.cameras[0].pose.T_robot_camera.translation(),
+            written.cameras[0].pose.T_robot_camera.translation());
+  EXPECT_EQ(read.cameras[0].pose.translation_error_m, Eigen::Vector3d(1e-3, 2e-3, 3e-3));
+  ASSERT_TRUE(read.cameras[0].depth_bias);
+  EXPECT_EQ(read.cameras[0].depth_bias->map.covariance, Bias().map.covariance);
+  EXPECT_FALSE(read.cameras[1].depth_bias);
+}
+
 TEST_F(CalibratedDepthBiasTest, RefusesABlockThatIsNone) {
   EXPECT_THAT(RefusalWith("width_px: 848", "width_px: 0"), HasSubstr("width_px"));
   EXPECT_THAT(RefusalWith("fx_px: 425.1", "fx_px: -425.1"), HasSubstr("fx_px"));

@@ -14,6 +14,23 @@ using Vector = Eigen::Vector3d;
 
 const std::string kShort = "name: s\nrecordings: [{name: a, duration_s: 1}]\n";
 
+TEST(ReadScenario, CamerasBesideTheFirstAreOfTheirOwn) {
+  const Scenario scenario =
+      ReadScenario(std::filesystem::path(PALPATE_SOURCE_DIR) / "config/scenarios/two_cameras.yaml",
+                   app::LoadYaml);
+  ASSERT_EQ(scenario.further_cameras.size(), 1u);
+  const FurtherCamera& back = scenario.further_cameras[0];
+  EXPECT_EQ(back.name, "back");
+  EXPECT_EQ(back.delay_s, 0.012);
+  EXPECT_EQ(back.clock_offset_s, 0.25);
+  EXPECT_EQ(back.T_robot_camera.translation(), Eigen::Vector3d(-0.343, 0.198, 0.275));
+  const Scenario alone = scenario.WithCamera(1);
+  EXPECT_TRUE(alone.further_cameras.empty());
+  EXPECT_EQ(alone.camera->T_robot_camera.translation(), back.T_robot_camera.translation());
+  EXPECT_EQ(scenario.WithCamera(0).camera->T_robot_camera.translation(),
+            scenario.camera->T_robot_camera.translation());
+}
+
 TEST(ReadScenario, NeedsANameAndOneRecordingOnly) {
   const Scenario scenario = Parse(kShort);
   EXPECT_EQ(scenario.file, "bench/s.yaml");

@@ -68,7 +68,8 @@ ForceBounds::ForceBounds(robot::RobotModel& model, const force_estimation::Shape
 void ForceBounds::Learn(const std::vector<ShapeFrame>& frames) {
   for (const ShapeFrame& frame : frames) {
     Expect(model_.Solve(frame.cables, {}, &untouched_).status);
-    bias_.Learn(matching_.Match(frame, untouched_.x_m), untouched_.x_m, frame.T_robot_camera);
+    bias_.HaveCameras(frame.views.size());
+    bias_.Learn(matching_.Match(frame, untouched_.x_m), untouched_.x_m, frame.Poses(), frame.epoch);
   }
   Expect(bias_.Finish());
 }
@@ -83,10 +84,10 @@ ForceBounds::Rows ForceBounds::RowsOf(const ShapeFrame& frame, const Eigen::Vect
     if (matches[f].state != MatchState::kMatched) continue;
     const robot::ObservationRow& row = matches[f].row;
     all.rows.push_back(row);
-    noise_m2.push_back(left * std::pow(bias_.NoiseScale() * matches[f].sigma_m, 2));
+    noise_m2.push_back(left *
+                       std::pow(bias_.NoiseScale(matches[f].camera) * matches[f].sigma_m, 2));
     const double moved_m = row.Value(x_m) - row.Value(untouched_.x_m);
-    const double bias_m =
-        bias_.CorrectionSigma_m(static_cast<int>(f), matches[f], frame.T_robot_camera);
+    const double bias_m = bias_.CorrectionSigma_m(matches[f], frame.Poses());
     constant_m2.push_back(std::pow(bias_m, 2) + std::pow(kModelError * moved_m, 2));
   }
   all.noise_m2 = Eigen::Map<Eigen::VectorXd>(noise_m2.data(), std::ssize(noise_m2));

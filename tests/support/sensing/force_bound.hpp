@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/surface_map.hpp"
@@ -53,7 +53,7 @@ class ForceBounds {
   correspondence::SurfaceFeatures features_;
   force_estimation::SurfaceMatching matching_;
   force_estimation::SurfaceMap map_;
-  force_estimation::DepthBias bias_;
+  force_estimation::CameraBiases bias_;
   fem::StaticState untouched_;
 };
 

@@ -31,12 +31,15 @@ struct BlockSum {
 
 }  // namespace
 
-IdealPerception::IdealPerception(const SensingScene& scene)
-    : scene_{scene}, noise_{NoiseOf(scene.scenario().camera->noise)}, view_{scene.camera().depth} {}
+IdealPerception::IdealPerception(const SensingScene& scene, std::size_t camera)
+    : scene_{scene},
+      camera_{camera},
+      noise_{NoiseOf(scene.spec(camera).noise)},
+      view_{scene.camera(camera).depth} {}
 
 const std::vector<TrueLabel>& IdealPerception::Labels() {
-  view_.Look(scene_.NodesInCamera_m(), scene_.triangles());
-  const rgbd::RangeImage& truth = scene_.true_range();
+  view_.Look(scene_.NodesInCamera_m(camera_), scene_.triangles());
+  const rgbd::RangeImage& truth = scene_.true_range(camera_);
   labels_.assign(truth.values.size(), TrueLabel::kElse);
   std::size_t at = 0;
   for (int v = 0; v < truth.height_px; ++v) {
@@ -50,7 +53,7 @@ const std::vector<TrueLabel>& IdealPerception::Labels() {
 }
 
 bool IdealPerception::IsWellInside(int u_px, int v_px) const {
-  const rgbd::RangeImage& truth = scene_.true_range();
+  const rgbd::RangeImage& truth = scene_.true_range(camera_);
   if (u_px < 1 || v_px < 1 || u_px + 1 >= truth.width_px || v_px + 1 >= truth.height_px) {
     return false;
   }
@@ -68,8 +71,8 @@ bool IdealPerception::IsWellInside(int u_px, int v_px) const {
 
 rgbd::SensedCloud IdealPerception::Cloud() {
   Labels();
-  const rgbd::RgbdCamera& camera = scene_.camera();
-  const rgbd::RgbdFrame& frame = scene_.frame();
+  const rgbd::RgbdCamera& camera = scene_.camera(camera_);
+  const rgbd::RgbdFrame& frame = scene_.frame(camera_);
   const bool colored = frame.color.width_px == frame.depth.width_px;
   std::vector<BlockSum> blocks;
   for (int v0 = 0; v0 + 1 < frame.depth.height_px; v0 += kBlock_px) {
@@ -124,12 +127,15 @@ std::vector<force_estimation::SeenContact> IdealPerception::Contacts(double sigm
   return contacts;
 }
 
+force_estimation::ShapeView IdealPerception::View() {
+  return {Cloud(), scene_.T_robot_camera(camera_)};
+}
+
 force_estimation::ShapeFrame IdealPerception::Frame(
     std::vector<force_estimation::SeenContact> contacts) {
   force_estimation::ShapeFrame frame;
   frame.t_s = NsToSeconds(scene_.frame().stamp_ns);
-  frame.cloud = Cloud();
-  frame.T_robot_camera = scene_.T_robot_camera();
+  frame.views[0] = View();
   frame.contacts = std::move(contacts);
   frame.cables = scene_.Cables();
   return frame;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ enum class TrueLabel : char { kElse, kRobot };
 /// measure it by. For cameras without faults in pose and lens.
 class IdealPerception {
  public:
-  explicit IdealPerception(const SensingScene& scene);
+  explicit IdealPerception(const SensingScene& scene, std::size_t camera = 0);
 
   /// [pixels] what is really in each depth pixel of the scene's last frame. Holds until the next
   /// call.
@@ -40,13 +41,16 @@ class IdealPerception {
   std::vector<force_estimation::SeenContact> Contacts(double sigma_m, const LocationError& error,
                                                       bool weights = false) const;
 
-  /// The last frame as the estimator gets it. `contacts`: seen ones.
+  /// What the camera sees of the last frame, as the estimator gets it.
+  force_estimation::ShapeView View();
+  /// The last frame with this camera alone. `contacts`: seen ones.
   force_estimation::ShapeFrame Frame(std::vector<force_estimation::SeenContact> contacts);
 
  private:
   bool IsWellInside(int u_px, int v_px) const;
 
   const SensingScene& scene_;
+  std::size_t camera_;
   rgbd::DepthNoise noise_;
   rgbd::SurfaceView view_;
   std::vector<TrueLabel> labels_;

@@ -19,16 +19,17 @@ Eigen::Vector3d Centroid_m(const geometry::TriangleSurface& surface, int triangl
          3.0;
 }
 
-SceneSight::SceneSight(const SensingScene& scene)
+SceneSight::SceneSight(const SensingScene& scene, std::size_t camera)
     : scene_{scene},
+      camera_{camera},
       surface_{.vertices_m = scene.state().nodes_m, .triangles = scene.triangles()},
-      view_{scene.camera().depth} {
+      view_{scene.camera(camera).depth} {
   Look();
 }
 
 void SceneSight::Look() {
   surface_.vertices_m = scene_.state().nodes_m;
-  view_.Look(scene_.NodesInCamera_m(), surface_.triangles);
+  view_.Look(scene_.NodesInCamera_m(camera_), surface_.triangles);
 }
 
 double SceneSight::SeenShare(const Eigen::Vector3d& position_m, double radius_m) const {
@@ -45,7 +46,7 @@ double SceneSight::SeenShare(const Eigen::Vector3d& position_m, double radius_m)
 }
 
 bool SceneSight::IsSeen(const Eigen::Vector3d& centroid_m, const Eigen::Vector3d& normal) const {
-  const Eigen::Isometry3d T_camera_robot = scene_.T_robot_camera().inverse();
+  const Eigen::Isometry3d T_camera_robot = scene_.T_robot_camera(camera_).inverse();
   const Eigen::Vector3d point_m = T_camera_robot * centroid_m;
   const double cosine = -(T_camera_robot.linear() * normal).dot(point_m.normalized());
   if (point_m.z() < rgbd::SurfaceView::kNearest_m || cosine < kSmallestCosine) return false;

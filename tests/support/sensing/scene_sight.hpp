@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 #include "libs/geometry/triangle_surface.hpp"
 #include "libs/rgbd/surface_view.hpp"
@@ -11,10 +12,10 @@
 
 namespace palpate::test_support {
 
-/// What the camera could see of the true body if there were no tools.
+/// What a camera could see of the true body if there were no tools.
 class SceneSight {
  public:
-  explicit SceneSight(const SensingScene& scene);
+  explicit SceneSight(const SensingScene& scene, std::size_t camera = 0);
 
   /// At the scene's present state.
   void Look();
@@ -28,6 +29,7 @@ class SceneSight {
   bool IsSeen(const Eigen::Vector3d& centroid_m, const Eigen::Vector3d& normal) const;
 
   const SensingScene& scene_;
+  std::size_t camera_;
   geometry::TriangleSurface surface_;
   rgbd::SurfaceView view_;
 };

@@ -30,11 +30,19 @@ SensingChain::SensingChain(const robot::RobotDescription& robot, SensingScene& s
       settings_{settings},
       model_{robot::BuildRobotBody(robot)},
       estimator_{model_, WithTwoContacts(settings.config), settings.shape},
-      ideal_{scene},
       perception_{settings.perception},
-      sight_{scene},
       random_{seed, "sensing chain"} {
-  perception_.SetCamera(scene.camera());
+  for (std::size_t k = 0; k < settings_.cameras; ++k) {
+    ideal_.emplace_back(scene, k);
+    sight_.emplace_back(scene, k);
+  }
+  perception_.Open(Cameras());
+}
+
+std::vector<std::optional<rgbd::RgbdCamera>> SensingChain::Cameras() const {
+  std::vector<std::optional<rgbd::RgbdCamera>> cameras;
+  for (std::size_t k = 0; k < settings_.cameras; ++k) cameras.emplace_back(scene_.camera(k));
+  return cameras;
 }
 
 void SensingChain::Learn(int frames, int postures, double largest_cable_m) {
@@ -68,51 +76,76 @@ std::vector<force_estimation::SeenContact> SensingChain::IdealContacts() {
     return is_m;
   };
   std::vector<force_estimation::SeenContact> all =
-      ideal_.Contacts(settings_.location_sigma_m, error_m, settings_.weights_given);
+      ideal_[0].Contacts(settings_.location_sigma_m, error_m, settings_.weights_given);
   if (all.empty() || settings_.weights_given) return all;
-  sight_.Look();
+  std::vector<char> is_seen(all.size(), 0);
+  for (std::size_t k = 0; k < sight_.size(); ++k) {
+    if (IsMissing(k)) continue;
+    sight_[k].Look();
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      const double share = sight_[k].SeenShare(all[c].position_m, kSeenRadius_m);
+      if (share >= settings_.seen_share) is_seen[c] = 1;
+    }
+  }
   std::vector<force_estimation::SeenContact> seen;
-  for (force_estimation::SeenContact& contact : all) {
-    const double share = sight_.SeenShare(contact.position_m, kSeenRadius_m);
-    if (share >= settings_.seen_share) seen.push_back(std::move(contact));
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (is_seen[c] != 0) seen.push_back(std::move(all[c]));
   }
   return seen;
 }
 
+force_estimation::ShapeFrame SensingChain::PerceiveIdeally() {
+  force_estimation::ShapeFrame frame;
+  frame.contacts = IdealContacts();
+  frame.views.clear();
+  for (std::size_t k = 0; k < ideal_.size(); ++k) {
+    frame.views.push_back({{}, scene_.T_robot_camera(k)});
+    if (!IsMissing(k)) frame.views[k] = ideal_[k].View();
+  }
+  return frame;
+}
+
 /// As palpate-perception and what converts between the processes do.
 force_estimation::ShapeFrame SensingChain::Perceive() {
-  const rgbd::RgbdFrame* images = &scene_.frame();
-  if (faults_.images) {
-    faulty_ = *images;
-    faults_.images(&faulty_);
-    images = &faulty_;
+  const Eigen::Matrix3Xi& triangles = model_.body().boundary.DrawnTriangles();
+  std::vector<perception::PredictedSurface> predicted(settings_.cameras);
+  std::vector<perception::CameraFrame> images(settings_.cameras);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    images[k].T_robot_camera = scene_.T_robot_camera(k);
+    if (!IsMissing(k)) images[k].images = &scene_.frame(k);
+    if (predicted_nodes_m_.cols() == 0) continue;
+    predicted[k] =
+        perception::MakePredictedSurface(predicted_nodes_m_, triangles, scene_.T_robot_camera(k));
+    images[k].predicted = &predicted[k];
   }
-  const perception::Observation& seen =
-      perception_.Update(*images, has_prediction_ ? &prediction_ : nullptr);
+  if (faults_.images) {
+    faulty_ = scene_.frame();
+    faults_.images(&faulty_);
+    images[0].images = &faulty_;
+  }
+  const perception::JointObservation& seen = perception_.Update(scene_.frame().stamp_ns, images);
   force_estimation::ShapeFrame frame;
-  frame.cloud = seen.frame.robot;
-  frame.T_robot_camera = scene_.T_robot_camera();
+  frame.views.clear();
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    frame.views.push_back({seen.views[k].frame.robot, scene_.T_robot_camera(k)});
+  }
   for (const perception::DetectedContact& contact : seen.contacts) {
     frame.contacts.push_back(
         force_estimation::InRobotFrame({contact.name, contact.position_m, contact.covariance_m2,
                                         contact.extent_m, contact.point_count},
-                                       frame.T_robot_camera));
+                                       scene_.T_robot_camera()));
   }
   return frame;
 }
 
 void SensingChain::Open() {
   ++epoch_;
-  perception_.SetCamera(scene_.camera());
+  perception_.Open(Cameras());
 }
 
 const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
-  scene_.TakeFrame();
-  if (settings_.eyes == ChainSettings::Eyes::kIdeal) {
-    frame_ = ideal_.Frame(IdealContacts());
-  } else {
-    frame_ = Perceive();
-  }
+  scene_.TakeFrame(settings_.cameras);
+  frame_ = settings_.eyes == ChainSettings::Eyes::kIdeal ? PerceiveIdeally() : Perceive();
   frame_.t_s = NsToSeconds(scene_.frame().stamp_ns);
   frame_.cables = scene_.Cables();
   if (faults_.cables) faults_.cables(&frame_.cables);
@@ -121,11 +154,9 @@ const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
   const force_estimation::ForceEstimate& estimate = estimator_.Update(frame_);
   estimator_.PrepareNext();
   if (force_estimation::PredictsShape(estimate)) {
-    has_prediction_ = true;
-    prediction_ = perception::MakePredictedSurface(
+    predicted_nodes_m_ =
         Eigen::Map<const Eigen::Matrix3Xd>(estimate.x_m.data(), 3, estimate.x_m.size() / 3)
-            .cast<float>(),
-        model_.body().boundary.DrawnTriangles(), frame_.T_robot_camera);
+            .cast<float>();
   }
   return estimate;
 }

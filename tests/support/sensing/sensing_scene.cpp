@@ -49,6 +49,12 @@ scenario::Scenario BallScenario() {
   return scenario;
 }
 
+std::vector<scenario::FurtherCamera> OppositeCamera() {
+  return scenario::ReadScenario(PALPATE_SOURCE_DIR "/config/scenarios/two_cameras.yaml",
+                                app::LoadYaml)
+      .further_cameras;
+}
+
 scenario::Scenario ConvergedBallScenario() {
   scenario::Scenario scenario = BallScenario();
   scenario.body = {};
@@ -62,7 +68,8 @@ SensingScene::SensingScene(const robot::RobotDescription& robot, const scenario:
       effects_{scenario::DrawEffects(scenario, scenario::NamesOf(robot), seed)},
       robot_{robot, scenario, effects_, seed},
       triangles_{robot_.boundary().DrawnTriangles()},
-      camera_{scenario, SkinOf(robot_), effects_, seed} {
+      cameras_{virtual_camera::MakeCameras(scenario, SkinOf(robot_), effects_, seed)},
+      frames_(cameras_.size()) {
   const Status status = Start(Nothing());
   if (!status.ok()) throw RunError("the virtual robot does not hang: " + status.message());
 }
@@ -95,19 +102,21 @@ void SensingScene::Read(const scenario::BenchInputs& inputs) {
   state_.cables = robot_.cables();
 }
 
-const rgbd::RgbdFrame& SensingScene::TakeFrame() {
+const rgbd::RgbdFrame& SensingScene::TakeFrame(std::size_t cameras) {
   virtual_camera::View view;
-  view.t_s = static_cast<double>(frames_++) / scenario_.camera->rate_hz;
+  view.t_s = static_cast<double>(taken_++) / scenario_.camera->rate_hz;
   view.nodes_m = state_.nodes_m;
   view.tools = state_.inputs.tools;
-  view.T_robot_camera = T_robot_camera() * unknown_turn_;
-  camera_.Take(view, &frame_);
-  frame_.stamp_ns = std::llround(1e9 * view.t_s);
-  return frame_;
+  for (std::size_t k = 0; k < cameras; ++k) {
+    view.T_robot_camera = k == 0 ? T_robot_camera() * unknown_turn_ : T_robot_camera(k);
+    cameras_[k]->Take(view, &frames_[k]);
+    frames_[k].stamp_ns = std::llround(1e9 * view.t_s);
+  }
+  return frames_[0];
 }
 
-Eigen::Matrix3Xd SensingScene::NodesInCamera_m() const {
-  return T_robot_camera().inverse() * state_.nodes_m;
+Eigen::Matrix3Xd SensingScene::NodesInCamera_m(std::size_t camera) const {
+  return T_robot_camera(camera).inverse() * state_.nodes_m;
 }
 
 std::vector<robot::ActuatorCommand> SensingScene::Cables() const {

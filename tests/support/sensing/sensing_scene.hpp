@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,9 @@ namespace palpate::test_support {
 /// which moves as the converged one does; balls of 8, 10 and 12 mm radius and friction 0.3 (ball_8,
 /// ball_10, ball_12), each of its own colour, and a hand (hand).
 scenario::Scenario BallScenario();
-/// The same with the converged body itself: the robot file's mesh cut in eight, its element and
+/// A second camera, opposite the first: that of config/scenarios/two_cameras.yaml.
+std::vector<scenario::FurtherCamera> OppositeCamera();
+/// BallScenario with the converged body itself: the robot file's mesh cut in eight, its element and
 /// modulus. Takes some hundred times as long.
 scenario::Scenario ConvergedBallScenario();
 
@@ -37,7 +41,7 @@ struct SceneState {
   std::vector<virtual_robot::CableReading> cables;
 };
 
-/// The virtual robot and the camera in front of it, with all inputs of an estimator and the
+/// The virtual robot and the cameras in front of it, with all inputs of an estimator and the
 /// truth that it is to estimate. The same arguments and calls give the same bits.
 class SensingScene {
  public:
@@ -59,22 +63,30 @@ class SensingScene {
   /// robot is: for states that were kept.
   void Show(const SceneState& state) { state_ = state; }
 
-  /// From now on the camera is rotated about itself, and the estimator does not know.
+  /// From now on the first camera is rotated about itself, and the estimator does not know.
   void TurnCamera(const Eigen::Quaterniond& turn) { unknown_turn_ = turn; }
 
-  /// The next of the frames that the camera takes of what is there, 1/rate_hz later each, with
-  /// noise. Holds until the next call.
-  const rgbd::RgbdFrame& TakeFrame();
-  const rgbd::RgbdFrame& frame() const { return frame_; }
+  /// The next of the frames that the first `cameras` cameras take of what is there, 1/rate_hz later
+  /// each, with noise. Returns that of the first. Holds until the next call.
+  const rgbd::RgbdFrame& TakeFrame(std::size_t cameras = 1);
+  const rgbd::RgbdFrame& frame(std::size_t camera = 0) const { return frames_[camera]; }
   /// z of what is really there in each pixel of the last frame, m; NaN: nothing.
-  const rgbd::RangeImage& true_range() const { return camera_.true_range(); }
+  const rgbd::RangeImage& true_range(std::size_t camera = 0) const {
+    return cameras_[camera]->true_range();
+  }
 
-  const rgbd::RgbdCamera& camera() const { return scenario_.camera->camera; }
-  const Eigen::Isometry3d& T_robot_camera() const { return scenario_.camera->T_robot_camera; }
+  std::size_t CameraCount() const { return cameras_.size(); }
+  const scenario::CameraSpec& spec(std::size_t camera = 0) const {
+    return camera == 0 ? *scenario_.camera : scenario_.further_cameras[camera - 1];
+  }
+  const rgbd::RgbdCamera& camera(std::size_t number = 0) const { return spec(number).camera; }
+  const Eigen::Isometry3d& T_robot_camera(std::size_t camera = 0) const {
+    return spec(camera).T_robot_camera;
+  }
   const scenario::Scenario& scenario() const { return scenario_; }
   const virtual_robot::VirtualRobot& robot() const { return robot_; }
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] of the true surface
-  Eigen::Matrix3Xd NodesInCamera_m() const;                         ///< [3 x nodes] camera frame
+  Eigen::Matrix3Xd NodesInCamera_m(std::size_t camera = 0) const;   ///< [3 x nodes] camera frame
   /// The cable inputs of the estimator: displacements.
   std::vector<robot::ActuatorCommand> Cables() const;
 
@@ -85,12 +97,12 @@ class SensingScene {
   std::vector<scenario::ActiveEffect> effects_;
   virtual_robot::VirtualRobot robot_;
   Eigen::Matrix3Xi triangles_;
-  virtual_camera::VirtualCamera camera_;
+  std::vector<std::unique_ptr<virtual_camera::VirtualCamera>> cameras_;
   double t_s_ = 0.0;
   SceneState state_;
   Eigen::Quaterniond unknown_turn_ = Eigen::Quaterniond::Identity();
-  std::int64_t frames_ = 0;
-  rgbd::RgbdFrame frame_;
+  std::int64_t taken_ = 0;
+  std::vector<rgbd::RgbdFrame> frames_;  ///< of each camera
 };
 
 }  // namespace palpate::test_support

@@ -135,7 +135,7 @@ class NewCalibrationTest : public testing::Test {
     });
   }
   double LastCameraZ_m() const {
-    return script_.calls().back().shape.frame.T_robot_camera.translation().z();
+    return script_.calls().back().shape.frame.views[0].T_robot_camera.translation().z();
   }
 
   Script script_;
@@ -181,7 +181,7 @@ TEST_F(NewCalibrationTest, HoldsFromTheNextFrameOnWhichBeginsASequence) {
   ASSERT_TRUE(WaitUntilSaid("takes the calibration of 2026-01-31"));
   Ask(20);
   const Script::Call call = script_.calls().back();
-  EXPECT_EQ(call.shape.frame.T_robot_camera.translation().z(), 0.75);
+  EXPECT_EQ(call.shape.frame.views[0].T_robot_camera.translation().z(), 0.75);
   EXPECT_NEAR(call.shape.frame.cables.at(0).value, kTold_m + 1e-3, 1e-15);
   EXPECT_EQ(call.youngs_modulus_Pa, 321e3);
   EXPECT_EQ(call.pipeline, script_.calls().front().pipeline + 1);

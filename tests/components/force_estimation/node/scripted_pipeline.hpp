@@ -81,7 +81,7 @@ class Script {
       ContactForce contact;
       contact.status = Status::Ok();
       contact.name = script_.contact_name_;
-      contact.force_N.z() = static_cast<double>(shape.frame.cloud.Count());
+      contact.force_N.z() = static_cast<double>(shape.frame.views[0].cloud.Count());
       result_.estimate.contacts = {contact};
       return result_;
     }

@@ -38,8 +38,8 @@ TEST_F(ShapeNodeTest, TheEstimatorSeesCloudCablesAndContactsInTheRobotsFrame) {
   Ask({.stamp_ns = 1'500'000'000});
   const ShapeFrame frame = script_.calls().at(0).shape.frame;
   EXPECT_EQ(frame.t_s, 1.5);
-  EXPECT_EQ(frame.cloud.points_m(1, 0), 0.25f);
-  EXPECT_EQ(frame.T_robot_camera.translation().z(), 0.5);
+  EXPECT_EQ(frame.views[0].cloud.points_m(1, 0), 0.25f);
+  EXPECT_EQ(frame.views[0].T_robot_camera.translation().z(), 0.5);
   ASSERT_EQ(frame.cables.size(), 1u);
   EXPECT_EQ(frame.cables[0].value, kCable_m);
   ASSERT_EQ(frame.contacts.size(), 1u);
@@ -191,7 +191,7 @@ TEST_F(WithoutPoseTest, TakesTheCameraPoseOfTheTransforms) {
     answer = Ask({.stamp_ns = stamp_ns += 10});
   }
   ASSERT_EQ(answer.status, "ok") << answer.reason;
-  EXPECT_EQ(script_.calls().at(0).shape.frame.T_robot_camera.translation(),
+  EXPECT_EQ(script_.calls().at(0).shape.frame.views[0].T_robot_camera.translation(),
             Eigen::Vector3d(0.2, 0.0, 0.5));
 }
 

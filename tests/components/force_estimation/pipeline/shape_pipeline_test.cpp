@@ -173,7 +173,7 @@ TEST(ShapePipelineOfFourLegs, EstimatesTheForceAtAGivenContact) {
     PerceivedShape shape;
     shape.perception = Status::Ok();
     shape.frame = FrameOf(Cast(scene, k < 3 ? free_m : pushed_m, BenchPose()));
-    AddDepthNoise(random, &shape.frame.cloud);
+    AddDepthNoise(random, &shape.frame.views[0].cloud);
     shape.frame.t_s = 0.033 * k;
     shape.frame.cables = cables;
     estimate = pipeline.Update(std::move(shape)).estimate;
