@@ -90,8 +90,8 @@ struct CommandRow {
 
 struct CommandScript {
   std::vector<std::string> cables;    ///< names of the cables and chambers with a command
-  std::vector<bool> of_chamber = {};  ///< [commands]
   std::vector<CommandRow> rows;       ///< time rising, at least one where cables is not empty
+  std::vector<bool> of_chamber = {};  ///< [commands], or empty: of cables alone
 
   Eigen::VectorXd At(double t_s) const;  ///< [commands]
 };

@@ -46,19 +46,21 @@ dds::Message<idl::palpate_msgs::ForceArray> ForcesOf(const std::vector<ShownForc
   return message;
 }
 
-dds::Message<idl::sensor_msgs::JointState> CablesOf(const std::vector<std::string>& names,
+dds::Message<idl::sensor_msgs::JointState> CablesOf(const std::vector<robot::ActuatorTraits>& actuators,
                                                     const ExperimentFrame& frame,
                                                     std::int64_t stamp_ns) {
   dds::Message<idl::sensor_msgs::JointState> message;
   dds::SetHeader(message->header, stamp_ns, geometry::kRobotFrame);
-  dds::Resize(message->name, names.size());
-  dds::Resize(message->position, names.size());
-  dds::Resize(message->effort, names.size());
-  for (std::size_t cable = 0; cable < names.size(); ++cable) {
-    const robot::ActuatorState& state = frame.cables[cable];
-    dds::SetText(message->name._buffer[cable], names[cable]);
-    message->position._buffer[cable] = state.displacement_m;
-    message->effort._buffer[cable] = frame.measured_tension_N[cable].value_or(state.tension_N);
+  dds::Resize(message->name, actuators.size());
+  dds::Resize(message->position, actuators.size());
+  dds::Resize(message->effort, actuators.size());
+  for (std::size_t a = 0; a < actuators.size(); ++a) {
+    const robot::ActuatorState& state = frame.cables[a];
+    const robot::ActuatorTraits& traits = actuators[a];
+    dds::SetText(message->name._buffer[a], traits.name);
+    message->position._buffer[a] = traits.ReportedDisplacement(state.displacement_m);
+    message->effort._buffer[a] =
+        frame.measured_tension_N[a].value_or(traits.ReportedForce(state.tension_N));
   }
   return message;
 }
@@ -127,7 +129,7 @@ void ExperimentSource::Show(const ExperimentInstant& instant) {
 
 void ExperimentSource::ShowShape(const ExperimentInstant& instant, const ExperimentFrame& frame) {
   const std::int64_t stamp_ns = StampOf(instant);
-  feed_->Take(*CablesOf(robot_.model().ActuatorNames(), frame, stamp_ns));
+  feed_->Take(*CablesOf(robot_.model().traits(), frame, stamp_ns));
   ShownMarkers markers{.stamp_ns = stamp_ns,
                        .names = robot_.model().MarkerNames(),
                        .measured_m = frame.measured_m,

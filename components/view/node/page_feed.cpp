@@ -97,7 +97,7 @@ void PageFeed::TellMesh() {
 
 /// Of a mesh that is the robot file's the cables are drawn along the body as it is now.
 void PageFeed::TellCables() {
-  if (robot_ == nullptr || robot_->model().ActuatorCount() == 0) return;
+  if (robot_ == nullptr || robot_->model().CableCount() == 0) return;
   const bool is_its_mesh = mesh_.surface().hash == robot_->body().mesh_hash &&
                            mesh_.surface().node_count == robot_->NodeCount();
   if (!is_its_mesh || !mesh_.usable() || !paths_limit_.Pass(MonotonicNow_ns())) return;

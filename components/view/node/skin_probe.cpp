@@ -60,12 +60,12 @@ void SkinProbe::Forget() {
 }
 
 Eigen::VectorXd SkinProbe::Tensions_N() const {
-  const std::vector<std::string> names = robot_->model().ActuatorNames();
-  Eigen::VectorXd tension_N(ToIndex(names.size()));
-  for (std::size_t cable = 0; cable < names.size(); ++cable) {
-    const auto found = tension_N_.find(names[cable]);
-    tension_N[ToIndex(cable)] =
-        found == tension_N_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+  const std::vector<robot::ActuatorTraits>& actuators = robot_->model().traits();
+  Eigen::VectorXd tension_N(ToIndex(actuators.size()));
+  for (std::size_t a = 0; a < actuators.size(); ++a) {
+    const auto found = tension_N_.find(actuators[a].name);
+    tension_N[ToIndex(a)] = found == tension_N_.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                      : actuators[a].Force_N(found->second);
   }
   return tension_N;
 }

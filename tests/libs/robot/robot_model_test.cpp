@@ -218,10 +218,10 @@ TEST_F(RobotModelTest, ASofterRegionBendsMore) {
   EXPECT_GT(sag(), stiff + 0.002);
 }
 
-TEST_F(RobotModelTest, CommandsMustBeAsManyAsCables) {
+TEST_F(RobotModelTest, CommandsMustBeAsManyAsActuators) {
   const auto model = Build(FullRobotText());
   fem::StaticState state = model->RestState();
-  EXPECT_DEATH(static_cast<void>(model->Solve({{}}, {}, &state)), "CableCount");
+  EXPECT_DEATH(static_cast<void>(model->Solve({{}}, {}, &state)), "ActuatorCount");
 }
 
 }  // namespace
