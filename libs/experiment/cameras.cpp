@@ -17,8 +17,8 @@ namespace palpate::experiment {
 
 namespace {
 
-/// Clocks farther apart are in another unit, or of another day.
-constexpr NumberRule kClockOffset{.min = -60.0, .max = 60.0};
+/// Clocks may count from any day; nanoseconds of more do not fit in 64 bits.
+constexpr NumberRule kClockOffset{.min = -4e9, .max = 4e9};
 
 const CameraSettings* Find(const std::vector<CameraSettings>& cameras, const std::string& name) {
   const auto found = std::find_if(cameras.begin(), cameras.end(),
