@@ -32,8 +32,8 @@ struct FeatureMatch {
   /// Shorter than 1 where the surface bends.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< mean of the cloud points, camera frame
-  int feature = 0;  ///< number of the feature point
-  int camera = 0;   ///< number of the camera that sees it
+  int feature = 0;                                       ///< number of the feature point
+  int camera = 0;                                        ///< number of the camera that sees it
 };
 
 }  // namespace palpate::correspondence

@@ -33,7 +33,7 @@ struct Experiment {
   std::optional<Eigen::Isometry3d> T_robot_camera;  ///< p_robot = T_robot_camera * p_camera
   /// Of T_robot_camera; absent: not stated, see PoseErrorOf.
   std::optional<geometry::PoseStandardError> T_robot_camera_error;
-  std::vector<CameraSettings> cameras;  ///< beside the first
+  std::vector<CameraSettings> cameras;             ///< beside the first
   std::optional<Eigen::Vector3d> markers_sigma_m;  ///< > 0, for each axis of the measurement frame
   std::optional<DepthNoise> depth_noise;
   std::map<std::string, double> tolerances;  ///< cause id (or *_m, *_rad) -> tau > 0

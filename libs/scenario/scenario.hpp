@@ -174,7 +174,7 @@ struct Scenario {
   /// exactly as the robot file says.
   double clutter = 0.0;
   std::vector<Tool> tools;
-  std::optional<CameraSpec> camera;  ///< without: no images
+  std::optional<CameraSpec> camera;            ///< without: no images
   std::vector<FurtherCamera> further_cameras;  ///< only beside `camera`
   Stage stage;
   std::optional<MarkerSpec> markers;      ///< without: no markers

@@ -12,22 +12,22 @@
 namespace palpate::force_estimation {
 namespace {
 
-const Eigen::Vector3d kForce_N(0.1, -0.4, -0.8);
+const Eigen::Vector3d kHeldForce_N(0.1, -0.4, -0.8);
 
 Eigen::Matrix3d Noise(double sigma_N) { return sigma_N * sigma_N * Eigen::Matrix3d::Identity(); }
 
 TEST(ForceFilter, TheFirstFrameStandsAsItIs) {
   ForceFilter filter(2.0);
-  filter.Update(5.0, kForce_N, Noise(0.1));
-  EXPECT_EQ(filter.force_N(), kForce_N);
+  filter.Update(5.0, kHeldForce_N, Noise(0.1));
+  EXPECT_EQ(filter.force_N(), kHeldForce_N);
   EXPECT_EQ(filter.covariance_N2(), Noise(0.1));
 }
 
 TEST(ForceFilter, WithoutARateEachFrameStandsForItself) {
   ForceFilter filter(0.0);
-  filter.Update(0.0, kForce_N, Noise(0.1));
-  filter.Update(0.1, 1.1 * kForce_N, Noise(0.1));
-  EXPECT_EQ(filter.force_N(), 1.1 * kForce_N);
+  filter.Update(0.0, kHeldForce_N, Noise(0.1));
+  filter.Update(0.1, 1.1 * kHeldForce_N, Noise(0.1));
+  EXPECT_EQ(filter.force_N(), 1.1 * kHeldForce_N);
 }
 
 TEST(ForceFilter, NoiseIsAveragedToWhatItsCovarianceSays) {
@@ -38,8 +38,8 @@ TEST(ForceFilter, NoiseIsAveragedToWhatItsCovarianceSays) {
   constexpr int kFrames = 3000;
   constexpr int kSettled = 100;
   for (int k = 0; k < kFrames; ++k) {
-    filter.Update(k / 30.0, kForce_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
-    if (k >= kSettled) sum += (filter.force_N() - kForce_N).squaredNorm() / 3.0;
+    filter.Update(k / 30.0, kHeldForce_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
+    if (k >= kSettled) sum += (filter.force_N() - kHeldForce_N).squaredNorm() / 3.0;
   }
   const double scatter_N = std::sqrt(sum / (kFrames - kSettled));
   EXPECT_LT(scatter_N, 0.4 * kSigma_N);
@@ -52,9 +52,9 @@ TEST(ForceFilter, AnAccurateForceIsFollowedAtOnce) {
   constexpr double kSigma_N = 0.003;
   ForceFilter filter(2.0);
   for (int k = 0; k <= 30; ++k) {
-    filter.Update(k / 30.0, k / 30.0 * kForce_N, Noise(kSigma_N));  // 0.9 N in a second
+    filter.Update(k / 30.0, k / 30.0 * kHeldForce_N, Noise(kSigma_N));  // 0.9 N in a second
   }
-  EXPECT_LT((filter.force_N() - kForce_N).norm(), kSigma_N);
+  EXPECT_LT((filter.force_N() - kHeldForce_N).norm(), kSigma_N);
 }
 
 TEST(ForceFilter, AHeldForceIsAveragedMoreThanAChangingOne) {
@@ -68,9 +68,9 @@ TEST(ForceFilter, AHeldForceIsAveragedMoreThanAChangingOne) {
   for (int run = 0; run < kRuns; ++run) {
     ForceFilter filter(kRate_N_s);
     for (int k = 0; k < kFrames; ++k) {
-      filter.Update(k / 30.0, kForce_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
+      filter.Update(k / 30.0, kHeldForce_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
     }
-    const double off_N = filter.force_N().z() - kForce_N.z();
+    const double off_N = filter.force_N().z() - kHeldForce_N.z();
     held_N2 += off_N * off_N / kRuns;
     inside += std::abs(off_N) <= 1.96 * std::sqrt(filter.covariance_N2()(2, 2)) ? 1.0 / kRuns : 0.0;
   }
@@ -103,20 +103,21 @@ TEST(ForceFilter, ARampIsFollowedWithinWhatItsCovarianceSays) {
 
 TEST(ForceFilter, AJumpRestarts) {
   ForceFilter filter(0.1);
-  for (int k = 0; k < 30; ++k) filter.Update(k / 30.0, kForce_N, Noise(0.02));
-  filter.Update(1.0, -kForce_N, Noise(0.02));
-  EXPECT_EQ(filter.force_N(), -kForce_N);
+  for (int k = 0; k < 30; ++k) filter.Update(k / 30.0, kHeldForce_N, Noise(0.02));
+  filter.Update(1.0, -kHeldForce_N, Noise(0.02));
+  EXPECT_EQ(filter.force_N(), -kHeldForce_N);
 }
 
 TEST(ForceFilter, ASmallerThresholdOfChangeFollowsASmallerJump) {
   const Eigen::Vector3d jump_N(0.0, 0.0, 0.06);  // three sigmas of a frame
   ForceFilter by_default(0.1), sensitive(0.1, {.changed_chi_squared = 4.0});
   for (ForceFilter* filter : {&by_default, &sensitive}) {
-    for (int k = 0; k < 30; ++k) filter->Update(k / 30.0, kForce_N, Noise(0.02));
-    filter->Update(1.0, kForce_N + jump_N, Noise(0.02));
+    for (int k = 0; k < 30; ++k) filter->Update(k / 30.0, kHeldForce_N, Noise(0.02));
+    filter->Update(1.0, kHeldForce_N + jump_N, Noise(0.02));
   }
-  EXPECT_EQ(sensitive.force_N(), kForce_N + jump_N);
-  EXPECT_LT((by_default.force_N() - kForce_N).norm(), 0.5 * jump_N.norm()) << "averaged as noise";
+  EXPECT_EQ(sensitive.force_N(), kHeldForce_N + jump_N);
+  EXPECT_LT((by_default.force_N() - kHeldForce_N).norm(), 0.5 * jump_N.norm())
+      << "averaged as noise";
 }
 
 TEST(ForceFilter, TurnsWithTheFrame) {
@@ -126,7 +127,7 @@ TEST(ForceFilter, TurnsWithTheFrame) {
   ForceFilter filter(0.5), turned(0.5);
   std::mt19937 random(2);
   for (int k = 0; k < 20; ++k) {
-    const Eigen::Vector3d force_N = kForce_N + NormalNoise(0.01, random);
+    const Eigen::Vector3d force_N = kHeldForce_N + NormalNoise(0.01, random);
     filter.Update(k / 30.0, force_N, covariance);
     turned.Update(k / 30.0, turn * force_N, turn * covariance * turn.transpose());
   }

@@ -62,21 +62,32 @@ class TwoCameras : public testing::Test {
   std::int64_t stamp_ns_ = 0;
 };
 
-TEST_F(TwoCameras, AContactThatBothSeeIsOne) {
-  seen_[0] = TouchedAt({{0.02, 0.01}});
-  seen_[1] = TouchedAt({{-0.02, -0.01}});
-  const JointObservation& seen = Update();
-  ASSERT_EQ(seen.contacts.size(), 1u);
-  EXPECT_NEAR(seen.contacts[0].position_m.x(), 0.02, 1e-3);
-  EXPECT_NEAR(seen.contacts[0].position_m.y(), 0.01, 1e-3);
-}
-
 TEST_F(TwoCameras, AContactOfTheSecondIsInTheFrameOfTheFirst) {
   seen_[1] = TouchedAt({{-0.02, -0.01}});
+  const std::vector<DetectedContact> second = Update().contacts;
+  ASSERT_EQ(second.size(), 1u);
+  seen_[0] = seen_[1];
+  perception_.Open({rgbd::RgbdCamera{}, rgbd::RgbdCamera{}});
+  const std::vector<DetectedContact>& first = Update(true, /*second=*/false).contacts;
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_TRUE(second[0].position_m.isApprox(T_second_ * first[0].position_m));
+  const Eigen::Matrix3d R_second = T_second_.linear();
+  EXPECT_TRUE(
+      second[0].covariance_m2.isApprox(R_second * first[0].covariance_m2 * R_second.transpose()));
+}
+
+TEST_F(TwoCameras, AContactThatBothSeeIsOneBetweenWhatEachSees) {
+  seen_[0] = TouchedAt({{0.02, 0.01}});
+  seen_[1] = TouchedAt({{-0.02, -0.01}});
+  const Eigen::Vector3d first_m = Update(true, false).contacts.at(0).position_m;
+  perception_.Open({rgbd::RgbdCamera{}, rgbd::RgbdCamera{}});
+  const Eigen::Vector3d second_m = Update(false, true).contacts.at(0).position_m;
+  perception_.Open({rgbd::RgbdCamera{}, rgbd::RgbdCamera{}});
   const JointObservation& seen = Update();
   ASSERT_EQ(seen.contacts.size(), 1u);
-  EXPECT_NEAR(seen.contacts[0].position_m.x(), 0.02, 1e-3);
-  EXPECT_NEAR(seen.contacts[0].position_m.y(), 0.01, 1e-3);
+  const double apart_m = (first_m - second_m).norm();
+  EXPECT_LE((seen.contacts[0].position_m - first_m).norm(), apart_m + 1e-9);
+  EXPECT_LE((seen.contacts[0].position_m - second_m).norm(), apart_m + 1e-9);
 }
 
 TEST_F(TwoCameras, ContactsAtTwoPlacesAreTwo) {
