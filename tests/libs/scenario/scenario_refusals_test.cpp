@@ -146,7 +146,7 @@ TEST(ScenarioRefusals, Commands) {
                           "south.displacement_m: 0}"),
               HasSubstr("south.displacement_m"));
   EXPECT_THAT(RefusalWith("{t_s: 0, north.displacement_m: 0, east.displacement_m: ~}", "{t_s: 0}"),
-              HasSubstr("names no cable"));
+              HasSubstr("names neither a cable nor a chamber"));
 }
 
 TEST(ScenarioRefusals, ToolPathsAndWeights) {

@@ -121,7 +121,7 @@ TEST(SensitivitySolverDeathTest, RefusesIndicesThatAreNotThere) {
   const RobotCase robot = SoftBeam({fem::ElementType::kTet4, Control::kDisplacement});
   Balance balance = Solve(robot);
   EXPECT_DEATH(Differentiate(balance, robot, YoungsModulus(2)), "material_");
-  EXPECT_DEATH(Differentiate(balance, robot, CableOffset(3)), "cable");
+  EXPECT_DEATH(Differentiate(balance, robot, CableOffset(3)), "actuator");
   EXPECT_DEATH(Differentiate(balance, robot, EyeletMove(0, 3, robot.body.markers[0].point.weights)),
                "eyelet_");
 }
