@@ -46,9 +46,9 @@ dds::Message<idl::palpate_msgs::ForceArray> ForcesOf(const std::vector<ShownForc
   return message;
 }
 
-dds::Message<idl::sensor_msgs::JointState> CablesOf(const std::vector<robot::ActuatorTraits>& actuators,
-                                                    const ExperimentFrame& frame,
-                                                    std::int64_t stamp_ns) {
+dds::Message<idl::sensor_msgs::JointState> CablesOf(
+    const std::vector<robot::ActuatorTraits>& actuators, const ExperimentFrame& frame,
+    std::int64_t stamp_ns) {
   dds::Message<idl::sensor_msgs::JointState> message;
   dds::SetHeader(message->header, stamp_ns, geometry::kRobotFrame);
   dds::Resize(message->name, actuators.size());

@@ -206,18 +206,54 @@ fem::MovingSurface CavityWall(const fem::TetMesh& mesh) {
   return wall;
 }
 
+namespace {
+
+/// An edge of a rim as the lid passes it, and the point on its middle (-1: faces are flat).
+struct RimEdge {
+  int a, b, middle;
+};
+
+/// Closes a rim by triangles around the mean of its points.
+void AddLid(const std::vector<RimEdge>& rim, Eigen::Index per_face, fem::MovingSurface* wall,
+            std::vector<Eigen::VectorXi>* faces) {
+  fem::InterpolationWeights centre;
+  for (const RimEdge& edge : rim) {
+    centre.nodes.push_back(edge.a);
+    centre.weights.push_back(1.0 / static_cast<double>(rim.size()));
+  }
+  const int middle = static_cast<int>(wall->points.size());
+  wall->points.push_back(centre);
+  std::map<int, int> spoke_of;  // point half way to the centre
+  const auto spoke = [&](int node) {
+    const auto [entry, is_new] = spoke_of.try_emplace(node, static_cast<int>(wall->points.size()));
+    if (is_new) {
+      fem::InterpolationWeights half = centre;
+      for (double& weight : half.weights) weight *= 0.5;
+      half.nodes.push_back(node);
+      half.weights.push_back(0.5);
+      wall->points.push_back(half);
+    }
+    return entry->second;
+  };
+  for (const RimEdge& edge : rim) {
+    Eigen::VectorXi face(per_face);
+    face.head<3>() << edge.a, edge.b, middle;
+    if (per_face == 6) face.tail<3>() << edge.middle, spoke(edge.b), spoke(edge.a);
+    faces->push_back(face);
+  }
+}
+
+}  // namespace
+
 fem::MovingSurface TubeWall(const fem::TetMesh& tube, double length_m) {
+  constexpr double kSame_m = 1e-6;
+  constexpr std::array<int, 6> kTurned{0, 2, 1, 5, 4, 3};
   const fem::BoundarySurface boundary = fem::ExtractBoundary(tube);
   const Eigen::Index per_face = boundary.faces.rows();
-  constexpr std::array<int, 6> kTurned{0, 2, 1, 5, 4, 3};
   fem::MovingSurface wall;
   for (int node = 0; node < tube.NodeCount(); ++node) wall.points.push_back({{node}, {1.0}});
   std::vector<Eigen::VectorXi> faces;
-  struct RimEdge {
-    int a, b, middle;
-  };
   std::array<std::vector<RimEdge>, 2> rims;
-  constexpr double kSame_m = 1e-6;
   for (int f = 0; f < boundary.FaceCount(); ++f) {
     Eigen::VectorXi face(per_face);
     bool is_inner = true;
@@ -229,42 +265,15 @@ fem::MovingSurface TubeWall(const fem::TetMesh& tube, double length_m) {
     faces.push_back(face);
     for (int k = 0; k < 3; ++k) {
       const int a = face[k], b = face[(k + 1) % 3];
-      const int middle = per_face == 6 ? face[3 + k] : -1;
       for (int end = 0; end < 2; ++end) {
         const double z_m = end * length_m;
         const bool on_rim = std::abs(tube.nodes_m(2, a) - z_m) < kSame_m &&
                             std::abs(tube.nodes_m(2, b) - z_m) < kSame_m;
-        if (on_rim) rims[At(end)].push_back({b, a, middle});  // the lid passes it the other way
+        if (on_rim) rims[At(end)].push_back({b, a, per_face == 6 ? face[3 + k] : -1});
       }
     }
   }
-  for (const std::vector<RimEdge>& rim : rims) {
-    fem::InterpolationWeights centre;
-    for (const RimEdge& edge : rim) {
-      centre.nodes.push_back(edge.a);
-      centre.weights.push_back(1.0 / static_cast<double>(rim.size()));
-    }
-    const int middle = static_cast<int>(wall.points.size());
-    wall.points.push_back(centre);
-    std::map<int, int> spoke_of;  // point half way to the centre
-    const auto spoke = [&](int node) {
-      const auto [entry, is_new] = spoke_of.try_emplace(node, static_cast<int>(wall.points.size()));
-      if (is_new) {
-        fem::InterpolationWeights half = centre;
-        for (double& weight : half.weights) weight *= 0.5;
-        half.nodes.push_back(node);
-        half.weights.push_back(0.5);
-        wall.points.push_back(half);
-      }
-      return entry->second;
-    };
-    for (const RimEdge& edge : rim) {
-      Eigen::VectorXi face(per_face);
-      face.head<3>() << edge.a, edge.b, middle;
-      if (per_face == 6) face.tail<3>() << edge.middle, spoke(edge.b), spoke(edge.a);
-      faces.push_back(face);
-    }
-  }
+  for (const std::vector<RimEdge>& rim : rims) AddLid(rim, per_face, &wall, &faces);
   wall.faces.resize(per_face, std::ssize(faces));
   for (std::size_t f = 0; f < faces.size(); ++f) wall.faces.col(ToIndex(f)) = faces[f];
   return wall;
