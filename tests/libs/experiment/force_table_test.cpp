@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-constexpr const char* kHeader =
+constexpr const char* kForceHeader =
     "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status,"
     "cov_xx_N2,cov_xy_N2,cov_xz_N2,cov_yy_N2,cov_yz_N2,cov_zz_N2\n";
 
@@ -31,7 +31,7 @@ std::string ForcesRefusal(const std::string& content) {
 
 TEST(ForceTable, HasTheRowsOfEstimate) {
   const ForceTable table =
-      ParseForces(std::string(kHeader) +
+      ParseForces(std::string(kForceHeader) +
                   "r1,0.1,,,,,,,,,,no_contact,,,,,,\n"
                   "r1,0.2,a,0.01,0.02,0.03,0,0,-0.5,0.1,0.002,ok,1,0.1,0.2,2,0.3,3\n"
                   "r2,0.1,b,0.01,0.02,0.03,,,,,,unobservable,,,,,,\n");
@@ -73,7 +73,7 @@ TEST(ForceTable, IsRefusedAtTheFieldThatIsWrong) {
               AllOf(HasSubstr("forces.csv:1:"), HasSubstr("'fz_N' is missing")));
   EXPECT_THAT(ForcesRefusal("t_s,x_mm,y_m,z_m,fx_N,fy_N,fz_N\n0,0,0,0,0,0,0\n"),
               AllOf(HasSubstr("forces.csv:1:5"), HasSubstr("x_mm")));
-  const std::string header = kHeader;
+  const std::string header = kForceHeader;
   EXPECT_THAT(ForcesRefusal(header + "r,2,,,,,,,,,,ok,,,,,,\nr,1,,,,,,,,,,ok,,,,,,\n"),
               AllOf(HasSubstr("forces.csv:3:"), HasSubstr("time falls")));
   EXPECT_THAT(ForcesRefusal(header + "r,1,a,0,,0,0,0,1,,,ok,,,,,,\n"),
