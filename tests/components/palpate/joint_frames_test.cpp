@@ -10,10 +10,10 @@
 namespace palpate::command {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 33'333'333;
+constexpr std::int64_t kFramePeriod_ns = 33'333'333;
 
 std::vector<std::int64_t> Times(int count, std::int64_t begin_ns,
-                                std::int64_t period_ns = kPeriod_ns) {
+                                std::int64_t period_ns = kFramePeriod_ns) {
   std::vector<std::int64_t> t_ns;
   for (int k = 0; k < count; ++k) t_ns.push_back(begin_ns + k * period_ns);
   return t_ns;
@@ -34,30 +34,30 @@ TEST(JointFrames, OfOneCameraAreItsFrames) {
   ASSERT_EQ(joint.size(), 4u);
   for (std::size_t k = 0; k < joint.size(); ++k) {
     EXPECT_EQ(joint[k].frames[0], k);
-    EXPECT_EQ(joint[k].t_ns, 7 + static_cast<std::int64_t>(k) * kPeriod_ns);
+    EXPECT_EQ(joint[k].t_ns, 7 + static_cast<std::int64_t>(k) * kFramePeriod_ns);
   }
 }
 
 TEST(JointFrames, OfCamerasWithoutACommonTriggerAreNearestInTime) {
   for (const double late : {0.0, 0.2, 0.45, 0.55, 0.8}) {
-    const auto late_ns = static_cast<std::int64_t>(late * kPeriod_ns);
+    const auto late_ns = static_cast<std::int64_t>(late * kFramePeriod_ns);
     const auto joint = JoinFrames({Times(10, 0), Times(10, late_ns)});
     EXPECT_GE(Whole(joint), 9) << late;
     for (const JointFrame& frame : joint) {
       if (!frame.frames[0] || !frame.frames[1]) continue;
       const std::int64_t apart_ns = (static_cast<std::int64_t>(*frame.frames[1]) -
                                      static_cast<std::int64_t>(*frame.frames[0])) *
-                                        kPeriod_ns +
+                                        kFramePeriod_ns +
                                     late_ns;
-      EXPECT_LE(std::abs(apart_ns), kPeriod_ns / 2 + 1) << late;
-      EXPECT_EQ(frame.t_ns, static_cast<std::int64_t>(*frame.frames[0]) * kPeriod_ns);
+      EXPECT_LE(std::abs(apart_ns), kFramePeriod_ns / 2 + 1) << late;
+      EXPECT_EQ(frame.t_ns, static_cast<std::int64_t>(*frame.frames[0]) * kFramePeriod_ns);
     }
   }
 }
 
 TEST(JointFrames, EachFrameIsUsedOnceInTheOrderOfTime) {
-  const auto joint =
-      JoinFrames({Times(30, 0), Times(7, 5, 4 * kPeriod_ns), Times(20, 11, kPeriod_ns + 1000)});
+  const auto joint = JoinFrames(
+      {Times(30, 0), Times(7, 5, 4 * kFramePeriod_ns), Times(20, 11, kFramePeriod_ns + 1000)});
   std::vector<std::set<std::size_t>> used(3);
   for (std::size_t k = 0; k < joint.size(); ++k) {
     if (k > 0) {
