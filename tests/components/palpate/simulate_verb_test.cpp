@@ -129,8 +129,10 @@ TEST_F(SimulateTest, WritesImagesWithTheDataSheetsCameraAndMarkersInItsFrame) {
 TEST_F(SimulateTest, FurtherCamerasHaveFoldersTimesAndClocksOfTheirOwn) {
   const std::string further =
       "cameras:\n  - {name: back, delay_s: 0.1, clock_offset_s: 5, depth: {width_px: 4, height_px: "
-      "3, fx_px: 3, fy_px: 3, cx_px: 1.5, cy_px: 1, unit_m: 0.001}, eye_m: [0, 1, 0], target_m: "
-      "[0, 0, 0], rate_hz: 4, noise: {sensor: none}}\n";
+      "3, fx_px: 3, fy_px: 3, cx_px: 1.5, cy_px: 1, unit_m: 0.001}, color: {width_px: 4, "
+      "height_px: 3, "
+      "fx_px: 3, fy_px: 3, cx_px: 1.5, cy_px: 1, registered_to_depth: true}, eye_m: [0, 1, 0], "
+      "target_m: [0, 0, 0], rate_hz: 4, noise: {sensor: none}}\n";
   Scenario(kCamera + further + kMarkers + kRecordings);
   options_.tell_camera_pose = true;
   ASSERT_EQ(Run(), 0);
