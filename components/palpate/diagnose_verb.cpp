@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/palpate/diagnose_verb.hpp"
+#include "components/force_estimation/check_labels.hpp"
 
 #include <fmt/core.h>
 
@@ -17,7 +18,6 @@
 #include "components/diagnosis/report/report_html.hpp"
 #include "components/diagnosis/report/verdict_json.hpp"
 #include "components/diagnosis/vocabulary/verdict_words.hpp"
-#include "components/palpate/check_labels.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/force_gain.hpp"
@@ -139,7 +139,7 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
     const experiment::Experiment experiment = ReadData(folder, options);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
     PrintWarnings(body);
-    CheckMarkerLabels(experiment, robot);
+    force_estimation::CheckMarkerLabels(experiment, robot);
     const fem::PointLocator places(body.mesh);
     for (const experiment::Recording& recording : experiment.recordings) {
       RequireLoadsOnBody(recording, places);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -15,15 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "components/calibration/joint/fit_check.hpp"
+#include "components/calibration/joint/fit_refusal.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
 #include "components/calibration/joint/misfit_reasons.hpp"
 #include "components/calibration/joint/recording_frames.hpp"
+#include "components/force_estimation/check_labels.hpp"
+#include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
-#include "libs/core/utc_text.hpp"
-#include "libs/experiment/recording_hash.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bind.hpp"
@@ -74,14 +73,8 @@ std::vector<const experiment::Recording*> DataOf(const std::vector<RecordingPtr>
   return data;
 }
 
-bool IsOfTheCamera(const experiment::Experiment& experiment,
-                   const experiment::Recording& recording) {
-  return experiment::FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera &&
-         !recording.T_robot_camera;
-}
-
 /// With marker offsets where displacements count from a reference window, which tells them.
-JointRequest RequestFor(const Robot& robot, const Wanted& wanted,
+JointRequest RequestFor(const Robot& robot, const robot::RobotModel& model, const Wanted& wanted,
                         const calibration::RecordedFrames& recorded) {
   JointRequest request;
   request.pose = recorded.has_camera();
@@ -89,19 +82,13 @@ JointRequest RequestFor(const Robot& robot, const Wanted& wanted,
   request.actuator_offsets = wanted.actuator_offsets;
   request.actuator_gains = wanted.actuator_gains;
   request.threads = wanted.threads;
-  const std::vector<std::string> all = calibration::PartsWithElements(robot.body());
-  const bool has_body = all.front() == "body";
-  const std::vector<std::string> parts = !wanted.parts.empty() ? wanted.parts
-                                         : has_body            ? std::vector<std::string>{"body"}
-                                                               : all;
+  const std::vector<std::string> parts =
+      wanted.parts.empty() ? calibration::PartsToFit(robot.body()) : wanted.parts;
   for (const std::string& part : parts) {
     request.moduli.push_back(robot.MaterialWithElements(part));
   }
   if (recorded.has_reference()) {
-    constexpr double kShareOfExtent = 0.02;
-    const Eigen::Matrix3Xd& nodes_m = robot.body().mesh.nodes_m;
-    request.marker_offset_sigma_m =
-        kShareOfExtent * (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).maxCoeff();
+    request.marker_offset_sigma_m = calibration::OffsetOfMarkers_m(model);
   }
   return request;
 }
@@ -119,31 +106,16 @@ auto RunInterruptibly(const Work& work, Interrupts* interrupts) {
 
 void RequirePossible(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
                      const JointRequest& request, const JointCalibration& fit) {
-  std::string what;
-  if (!fit.status.ok()) {
-    what = "the fit failed (" + std::string(ToString(fit.status.code())) +
-           "): " + fit.status.message();
-  } else {
-    const calibration::FitCheck check = calibration::CheckFit(model, frames, fit);
-    if (check.possible) return;
-    what = "the fit cannot be: the markers are " + FormatNumber(1e3 * check.residual_rms_m) +
-           " mm from the model (RMS), where noise and tolerances explain " +
-           FormatNumber(1e3 * check.expected_rms_m) + " mm";
-  }
+  const std::string why = calibration::WhyRefused(model, frames, fit, request);
+  if (why.empty()) return;
   const std::string reasons = calibration::FindMisfitReasons(model, frames, request).Text();
-  throw RunError(what + ". Likely reasons, the best first:\n" + reasons);
+  throw RunError(why + ". Likely reasons, the best first:\n" + reasons);
 }
 
 robot::CalibrationFile FileOf(const JointCalibration& fit, const robot::RobotModel& model,
                               const std::vector<const experiment::Recording*>& recordings,
                               const std::filesystem::path& data) {
-  robot::CalibrationFile file = robot::DescribeForCalibration(model);
-  file.date_utc = UtcText(std::time(nullptr));
-  file.data = data.filename().string();
-  for (const experiment::Recording* recording : recordings) {
-    file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
-  }
-  file.data_hash = experiment::HashRecordings(recordings);
+  robot::CalibrationFile file = calibration::MakeCalibration(model, recordings, data);
   calibration::TakeFit(fit, model, &file);
   std::erase_if(file.undetermined, [](const robot::Undetermined& number) {
     return number.name.starts_with("marker_offset:");
@@ -156,13 +128,15 @@ std::shared_ptr<Calibration> Calibrate(const RobotPtr& robot,
                                        const Wanted& wanted) {
   const auto data = DataOf(recordings);
   const experiment::Experiment& experiment = recordings.front()->experiment();
+  force_estimation::CheckMarkerLabels(experiment,
+                                      robot::ReadRobotFile(robot->file(), app::LoadYaml));
   auto model = robot->Use(
       [&](const robot::RobotModel& as_it_is) { return Robot::CopyOf(as_it_is, robot->solver()); });
   calibration::RecordedFrames recorded(experiment, *model, wanted.preferred, wanted.marker_bias_m);
   for (const experiment::Recording* recording : data) {
-    recorded.Add(*recording, IsOfTheCamera(experiment, *recording));
+    recorded.Add(*recording, calibration::IsOfTheCamera(experiment, *recording));
   }
-  JointRequest request = RequestFor(*robot, wanted, recorded);
+  JointRequest request = RequestFor(*robot, *model, wanted, recorded);
   const std::vector<CalibrationFrame> frames = recorded.frames();
   auto found = std::make_shared<Calibration>();
   Interrupts interrupts;

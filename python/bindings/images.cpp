@@ -65,50 +65,44 @@ RgbdCamera CameraOf(const Recording& recording) {
   return rgbd::ReadCameraFile(*data.camera_file, app::LoadYaml);
 }
 
+/// read(file) of a frame, without the GIL.
+template <typename Read>
+auto ReadFrame(const std::vector<experiment::StampedFile>& files, py::ssize_t frame,
+               const Recording& recording, const std::string& what, const Read& read) {
+  const std::filesystem::path& file = FileAt(files, frame, recording, what);
+  const py::gil_scoped_release released;
+  return read(file);
+}
+
 py::array DepthSteps(const Recording& recording, py::ssize_t frame) {
-  const auto& file = FileAt(recording.data().depth_images, frame, recording, "depth images");
-  rgbd::DepthImage image;
-  {
-    const py::gil_scoped_release released;
-    image = rgbd::ReadDepthPng(file);
-  }
-  return ArrayOf(std::move(image));
+  return ArrayOf(ReadFrame(recording.data().depth_images, frame, recording, "depth images",
+                           rgbd::ReadDepthPng));
 }
 
 py::array Depth_m(const Recording& recording, py::ssize_t frame) {
-  const auto& file = FileAt(recording.data().depth_images, frame, recording, "depth images");
-  rgbd::RangeImage range_m;
-  {
-    const py::gil_scoped_release released;
+  const auto read_m = [&](const std::filesystem::path& file) {
     const RgbdCamera camera = CameraOf(recording);
     const rgbd::DepthImage steps = rgbd::ReadDepthPng(file);
-    range_m = rgbd::RangeImage(steps.width_px, steps.height_px);
+    rgbd::RangeImage range_m(steps.width_px, steps.height_px);
     for (std::size_t k = 0; k < steps.values.size(); ++k) {
       range_m.values[k] = steps.values[k] == camera.invalid_value
                               ? std::numeric_limits<float>::quiet_NaN()
                               : static_cast<float>(steps.values[k] * camera.depth_unit_m);
     }
-  }
-  return ArrayOf(std::move(range_m));
+    return range_m;
+  };
+  return ArrayOf(
+      ReadFrame(recording.data().depth_images, frame, recording, "depth images", read_m));
 }
 
 py::array ColorPixels(const Recording& recording, py::ssize_t frame) {
-  const auto& file = FileAt(recording.data().color_images, frame, recording, "colour images");
-  rgbd::ColorImage image;
-  {
-    const py::gil_scoped_release released;
-    image = rgbd::ReadColorImage(file);
-  }
-  return ArrayOf(std::move(image));
+  return ArrayOf(ReadFrame(recording.data().color_images, frame, recording, "colour images",
+                           rgbd::ReadColorImage));
 }
 
 py::array CloudPoints_m(const Recording& recording, py::ssize_t frame) {
-  const auto& file = FileAt(recording.data().clouds, frame, recording, "clouds");
-  experiment::PointCloud cloud;
-  {
-    const py::gil_scoped_release released;
-    cloud = experiment::ReadPointCloud(file);
-  }
+  const experiment::PointCloud cloud =
+      ReadFrame(recording.data().clouds, frame, recording, "clouds", experiment::ReadPointCloud);
   return CopyOfPoints(cloud.points_m);
 }
 

@@ -80,8 +80,8 @@ Status CheckCloud(const robot::RobotModel& model, const CloudFrame& frame,
     }
   }
   if (static_cast<int>(frame.cables.size()) != model.ActuatorCount()) {
-    return Invalid(frame, std::to_string(frame.cables.size()) + " cable inputs, the robot has " +
-                              std::to_string(model.ActuatorCount()) + " cables");
+    return Invalid(frame, std::to_string(frame.cables.size()) + " inputs, the robot has " +
+                              std::to_string(model.ActuatorCount()) + " actuators");
   }
   if (cloud.Count() < settings.least_points) {
     return {StatusCode::kNoRobotSeen, frame.name + ": " + std::to_string(cloud.Count()) +

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "components/calibration/joint/route_unknowns.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/utc_text.hpp"
+#include "libs/experiment/recording_hash.hpp"
 
 namespace palpate::calibration {
 
@@ -49,6 +52,25 @@ std::vector<std::string> PartsWithElements(const robot::RobotBody& body) {
     if (any) parts.push_back(names[m]);
   }
   return parts;
+}
+
+std::vector<std::string> PartsToFit(const robot::RobotBody& body) {
+  std::vector<std::string> parts = PartsWithElements(body);
+  if (parts.front() == "body") parts = {"body"};
+  return parts;
+}
+
+robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
+                                       const std::vector<const experiment::Recording*>& recordings,
+                                       const std::filesystem::path& data) {
+  robot::CalibrationFile file = robot::DescribeForCalibration(model);
+  file.date_utc = UtcText(std::time(nullptr));
+  file.data = data.filename().empty() ? data.parent_path().filename() : data.filename();
+  for (const experiment::Recording* recording : recordings) {
+    file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
+  }
+  file.data_hash = experiment::HashRecordings(recordings);
+  return file;
 }
 
 namespace {

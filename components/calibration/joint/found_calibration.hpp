@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "components/calibration/joint/joint_calibration.hpp"
+#include "libs/experiment/recording.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -28,6 +30,15 @@ std::vector<CorrelatedValues> FindCorrelated(const JointCalibration& fit, double
 std::vector<std::string> PartNames(const robot::RobotBody& body);
 /// Those of them that an element has: not the body where regions have all of its elements.
 std::vector<std::string> PartsWithElements(const robot::RobotBody& body);
+
+/// Those whose modulus is estimated where nothing else is asked for: the body, or all regions where
+/// they have all of its elements.
+std::vector<std::string> PartsToFit(const robot::RobotBody& body);
+
+/// A calibration of this model from these recordings, dated now, without estimates.
+robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
+                                       const std::vector<const experiment::Recording*>& recordings,
+                                       const std::filesystem::path& data);
 
 /// Writes a successful joint calibration into `file`: pose, actuators, materials, gravity, size and
 /// cable routes that the data determine, the names of undetermined parameters, and the residual.

@@ -135,4 +135,18 @@ void RecordedFrames::Add(const experiment::Recording& recording, bool of_camera)
   }
 }
 
+bool IsOfTheCamera(const experiment::Experiment& experiment,
+                   const experiment::Recording& recording) {
+  return recording.markers && !recording.T_robot_camera &&
+         experiment::FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera &&
+         recording.kind != experiment::RecordingKind::kCameraMoved &&
+         (recording.camera_on_base || !recording.base_tilt_deg);
+}
+
+double OffsetOfMarkers_m(const robot::RobotModel& model) {
+  constexpr double kShareOfExtent = 0.02;
+  const Eigen::Matrix3Xd& nodes_m = model.body().mesh.nodes_m;
+  return kShareOfExtent * (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).maxCoeff();
+}
+
 }  // namespace palpate::calibration

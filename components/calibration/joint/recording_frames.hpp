@@ -59,4 +59,13 @@ class RecordedFrames {
   bool has_camera_ = false;
 };
 
+/// Whether its markers are seen from the camera whose pose is to be calibrated, as it stands in the
+/// whole experiment.
+bool IsOfTheCamera(const experiment::Experiment& experiment,
+                   const experiment::Recording& recording);
+
+/// Prior standard deviation of marker offsets, m, where displacements count from a reference
+/// window, which tells the places of markers.
+double OffsetOfMarkers_m(const robot::RobotModel& model);
+
 }  // namespace palpate::calibration

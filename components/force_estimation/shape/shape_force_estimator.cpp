@@ -143,7 +143,7 @@ Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
                 frame.cables.size());
   for (const robot::ActuatorCommand& command : frame.cables) {
     if (!std::isfinite(command.value)) {
-      return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
+      return {StatusCode::kInvalidInput, "an input of an actuator is not a finite number"};
     }
   }
   for (const auto& [cloud, T_robot_camera] : frame.views) {

@@ -180,7 +180,7 @@ ImageCalibration FitImages(const CalibrateOptions& options,
 
 robot::CalibrationFile Describe(const ImageCalibration& found, const CalibrateOptions& options,
                                 const robot::RobotModel& model) {
-  robot::CalibrationFile file = MakeCalibration(model, found.recordings, options.data);
+  robot::CalibrationFile file = calibration::MakeCalibration(model, found.recordings, options.data);
   calibration::TakeFit(found.fit.joint, model, &file);
   calibration::TakeDepthBias(found.fit.joint, found.picture, &file);
   LeaveOutMarkerOffsets(options, &file);

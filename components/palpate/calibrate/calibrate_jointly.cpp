@@ -30,13 +30,6 @@ using calibration::FittedValue;
 using calibration::JointCalibration;
 using experiment::Recording;
 
-bool IsOfTheCamera(const experiment::Experiment& experiment, const Recording& recording) {
-  return recording.markers && !recording.T_robot_camera &&
-         experiment::FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera &&
-         recording.kind != experiment::RecordingKind::kCameraMoved &&
-         (recording.camera_on_base || !recording.base_tilt_deg);
-}
-
 bool IsKept(const Recording& recording) {
   return recording.kind != experiment::RecordingKind::kFree;
 }
@@ -45,7 +38,8 @@ bool IsKept(const Recording& recording) {
 std::vector<const Recording*> RecordingsOfTheCamera(const experiment::Experiment& experiment) {
   std::vector<const Recording*> chosen;
   for (const Recording& recording : experiment.recordings) {
-    if (IsKept(recording) && IsOfTheCamera(experiment, recording)) chosen.push_back(&recording);
+    if (IsKept(recording) && calibration::IsOfTheCamera(experiment, recording))
+      chosen.push_back(&recording);
   }
   return chosen;
 }
@@ -56,7 +50,7 @@ std::vector<const Recording*> RecordingsOfTheBody(const experiment::Experiment& 
   for (const Recording& recording : experiment.recordings) {
     const auto pose = experiment::RobotFromMarkers(experiment, recording);
     const bool known = std::holds_alternative<Eigen::Isometry3d>(pose);
-    if (known && !IsOfTheCamera(experiment, recording) && HasKnownLoads(recording)) {
+    if (known && !calibration::IsOfTheCamera(experiment, recording) && HasKnownLoads(recording)) {
       chosen.push_back(&recording);
     }
   }
@@ -172,9 +166,10 @@ calibration::JointRequest RequestOf(const CalibrateOptions& options,
 }
 
 bool HasMarkersOfTheCamera(const experiment::Experiment& experiment) {
-  return std::any_of(
-      experiment.recordings.begin(), experiment.recordings.end(),
-      [&](const Recording& recording) { return IsOfTheCamera(experiment, recording); });
+  return std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
+                     [&](const Recording& recording) {
+                       return calibration::IsOfTheCamera(experiment, recording);
+                     });
 }
 
 void LeaveOutMarkerOffsets(const CalibrateOptions& options, robot::CalibrationFile* file) {
@@ -193,7 +188,7 @@ MarkerCalibration FitRecordedMarkers(const CalibrateOptions& options,
                                        options.marker_bias_m);
   for (const Recording* recording : found.recordings) {
     RequireLoads(*recording);
-    recorded.Add(*recording, IsOfTheCamera(experiment, *recording));
+    recorded.Add(*recording, calibration::IsOfTheCamera(experiment, *recording));
   }
   if (options.what == "camera" && !recorded.has_camera()) RefuseForCamera(experiment);
   found.frames = recorded.frames();
@@ -204,7 +199,7 @@ MarkerCalibration FitRecordedMarkers(const CalibrateOptions& options,
   found.request.own_poses = recorded.own_poses();
   if (options.what == "joint") TakeRobotFrameAsExact(&found.request);
   if (recorded.has_reference() && !(found.request.marker_offset_sigma_m > 0.0)) {
-    found.request.marker_offset_sigma_m = OffsetOfMarkers_m(*model);
+    found.request.marker_offset_sigma_m = calibration::OffsetOfMarkers_m(*model);
   }
   found.fit = FitMarkers(found.frames, found.request, model);
   if (!options.assignment.empty()) {
@@ -215,7 +210,7 @@ MarkerCalibration FitRecordedMarkers(const CalibrateOptions& options,
 
 robot::CalibrationFile Describe(const MarkerCalibration& found, const CalibrateOptions& options,
                                 const robot::RobotModel& model) {
-  robot::CalibrationFile file = MakeCalibration(model, found.recordings, options.data);
+  robot::CalibrationFile file = calibration::MakeCalibration(model, found.recordings, options.data);
   calibration::TakeFit(found.fit, model, &file);
   LeaveOutMarkerOffsets(options, &file);
   NameKnownLoads(found.recordings, &file);

@@ -43,7 +43,8 @@ void RequireSound(const CalibrateOptions& options, const experiment::Experiment&
                                        options.marker_bias_m);
   for (const experiment::Recording* recording : chosen) recorded.Add(*recording, false);
   calibration::JointRequest request{.pose = false, .own_poses = recorded.own_poses()};
-  if (recorded.has_reference()) request.marker_offset_sigma_m = OffsetOfMarkers_m(*model);
+  if (recorded.has_reference())
+    request.marker_offset_sigma_m = calibration::OffsetOfMarkers_m(*model);
   FitMarkers(recorded.frames(), request, model);
 }
 
@@ -69,7 +70,7 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
   }
   RequireFit(fit.status);
   RequireSound(options, experiment, chosen, model);
-  robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
+  robot::CalibrationFile file = calibration::MakeCalibration(*model, chosen, options.data);
   const std::vector<std::string> parts = calibration::PartNames(model->body());
   for (const calibration::FittedModulus& modulus : fit.moduli) {
     file.moduli.push_back(

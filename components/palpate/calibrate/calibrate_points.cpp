@@ -81,7 +81,8 @@ robot::CalibrationFile CalibrateFromPoints(const CalibrateOptions& options,
   RequirePossible(found.frames, found.joint, points.settings.request, model);
   if (!options.convergence.empty()) PlotConvergence(found.frames, model, options.convergence);
   if (!options.assignment.empty()) Draw(options, points, found, *model);
-  robot::CalibrationFile file = MakeCalibration(*model, points.recordings, options.data);
+  robot::CalibrationFile file =
+      calibration::MakeCalibration(*model, points.recordings, options.data);
   calibration::TakeFit(found.joint, *model, &file);
   if (!options.json) PrintAssignment(found, points, static_cast<int>(model->MarkerNames().size()));
   return file;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/palpate/calibrate/calibrate_verb.hpp"
+#include "components/force_estimation/check_labels.hpp"
 
 #include <fmt/core.h>
 
@@ -14,7 +15,6 @@
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
-#include "components/palpate/check_labels.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -29,12 +29,11 @@ namespace palpate::command {
 
 namespace {
 
-/// The body; where regions have all of its elements, these.
 std::vector<std::string> PartsOf(const CalibrateOptions& options, const robot::RobotBody& body) {
+  const auto& asked = options.parts;
+  if (asked.empty()) return calibration::PartsToFit(body);
   const std::vector<std::string> parts = calibration::PartsWithElements(body);
   const bool has_body = parts.front() == "body";
-  if (options.parts.empty()) return has_body ? std::vector<std::string>{"body"} : parts;
-  const auto& asked = options.parts;
   if (!has_body && std::find(asked.begin(), asked.end(), "body") != asked.end()) {
     throw InputError("--part body: all elements belong to regions; give " + Listed(parts));
   }
@@ -72,8 +71,8 @@ robot::CalibrationFile Find(const experiment::Experiment& experiment,
   const std::vector<int> materials = MaterialsOf(PartsOf(options, model->body()), model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
   if (!unlabelled) {
-    CheckMarkerLabels(experiment,
-                      robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml));
+    force_estimation::CheckMarkerLabels(
+        experiment, robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml));
   }
   if (options.fit_depth_bias && options.no_depth_bias) {
     throw InputError("--fit-depth-bias and --no-depth-bias exclude each other: give one");

@@ -5,14 +5,11 @@
 
 #include <fmt/core.h>
 
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "components/palpate/choose_recordings.hpp"
 #include "libs/core/error.hpp"
-#include "libs/core/utc_text.hpp"
-#include "libs/experiment/recording_hash.hpp"
 #include "libs/geometry/pose_text.hpp"
 
 namespace palpate::command {
@@ -78,19 +75,6 @@ void AddGeometry(const robot::CalibrationFile& file, nlohmann::ordered_json* jso
 }
 
 }  // namespace
-
-robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
-                                       const std::vector<const experiment::Recording*>& recordings,
-                                       const std::filesystem::path& data) {
-  robot::CalibrationFile file = robot::DescribeForCalibration(model);
-  file.date_utc = UtcText(std::time(nullptr));
-  file.data = data.filename().empty() ? data.parent_path().filename() : data.filename();
-  for (const experiment::Recording* recording : recordings) {
-    file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
-  }
-  file.data_hash = experiment::HashRecordings(recordings);
-  return file;
-}
 
 std::string FailureText(const Status& status) {
   return "the fit failed (" + std::string(ToString(status.code())) + "): " + status.message();

@@ -14,11 +14,6 @@
 
 namespace palpate::command {
 
-/// A calibration of this model from these recordings, dated now, without estimates.
-robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
-                                       const std::vector<const experiment::Recording*>& recordings,
-                                       const std::filesystem::path& data);
-
 /// Throws RunError with the reason (FailureText) where a fit failed.
 void RequireFit(const Status& status);
 std::string FailureText(const Status& status);

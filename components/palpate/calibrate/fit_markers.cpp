@@ -9,7 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "components/calibration/joint/fit_check.hpp"
+#include "components/calibration/joint/fit_refusal.hpp"
+#include "components/calibration/joint/misfit_reasons.hpp"
 #include "components/calibration/joint/model_snapshot.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "libs/core/error.hpp"
@@ -25,27 +26,6 @@ using calibration::CalibrationFrame;
 using calibration::FitCheck;
 using calibration::JointCalibration;
 using calibration::JointRequest;
-
-std::string OffBy(const AdjustedPose& pose) {
-  constexpr double kDegrees = 57.29577951308232;
-  return fmt::format("{} is off by {:.1f} mm and {:.2f} degrees, more than its standard error says",
-                     pose.name, 1e3 * pose.from_prior.tail<3>().norm(),
-                     kDegrees * pose.from_prior.head<3>().norm());
-}
-
-[[noreturn]] void Refuse(const std::string& what, const std::vector<CalibrationFrame>& frames,
-                         const JointRequest& request, robot::RobotModel* model) {
-  const std::string reasons = calibration::FindMisfitReasons(*model, frames, request).Text();
-  throw RunError(what + "; nothing was written. Likely reasons, the best first:\n" + reasons);
-}
-
-const AdjustedPose* MovedPose(const FitCheck& check, const JointRequest& request) {
-  if (!request.pose_prior) return nullptr;
-  const auto found =
-      std::find_if(check.moved_poses.begin(), check.moved_poses.end(),
-                   [&](const AdjustedPose& pose) { return pose.name == request.pose_prior->name; });
-  return found == check.moved_poses.end() ? nullptr : &*found;
-}
 
 /// The robot file's modulus is the prior mean, so that a factor of ten is a mistake in one of both.
 void NoteModuli(const JointCalibration& fit) {
@@ -64,7 +44,7 @@ void NoteModuli(const JointCalibration& fit) {
 JointCalibration Fit(const std::vector<CalibrationFrame>& frames, const JointRequest& request,
                      robot::RobotModel* model) {
   JointCalibration fit = calibration::CalibrateFrames(*model, frames, nullptr, request);
-  if (!fit.status.ok()) Refuse(FailureText(fit.status), frames, request, model);
+  if (!fit.status.ok()) RequirePossible(frames, fit, request, model);
   return fit;
 }
 
@@ -75,14 +55,15 @@ JointCalibration FitMarkers(const std::vector<CalibrationFrame>& frames, JointRe
   const calibration::ModelSnapshot kept(*model);
   JointCalibration fit = Fit(frames, request, model);
   const FitCheck check = calibration::CheckFit(*model, frames, fit);
-  if (const AdjustedPose* moved = MovedPose(check, request)) {
+  if (const AdjustedPose* moved = calibration::MovedCamera(check, request)) {
     const geometry::RigidTransform stated = request.pose_prior->T_robot_camera;
     kept.Restore();
     request.pose_prior.reset();
     fit = Fit(frames, request, model);
     AdjustedPose alone = *moved;
     alone.from_prior = calibration::ChangeBetween(stated, fit.T_robot_camera);
-    fmt::print(stderr, "note: {}; the pose is estimated from the markers alone\n", OffBy(alone));
+    fmt::print(stderr, "note: {}; the pose is estimated from the markers alone\n",
+               calibration::OffBy(alone));
   }
   RequirePossible(frames, fit, request, model);
   NoteModuli(fit);
@@ -91,28 +72,10 @@ JointCalibration FitMarkers(const std::vector<CalibrationFrame>& frames, JointRe
 
 void RequirePossible(const std::vector<CalibrationFrame>& frames, const JointCalibration& fit,
                      const JointRequest& request, robot::RobotModel* model) {
-  const FitCheck check = calibration::CheckFit(*model, frames, fit);
-  const AdjustedPose* camera = MovedPose(check, request);
-  const auto moved = std::find_if(check.moved_poses.begin(), check.moved_poses.end(),
-                                  [&](const AdjustedPose& pose) { return &pose != camera; });
-  if (check.possible && moved == check.moved_poses.end()) return;
-  std::string what = "the fit cannot be: ";
-  if (check.possible) {
-    what += OffBy(*moved);
-  } else {
-    what += fmt::format(
-        "the markers are {:.2f} mm from the model (RMS), where noise and tolerances explain {:.2f} "
-        "mm (chi-squared {:.3g} for {} degrees of freedom; with tolerances {:.3g})",
-        1e3 * check.residual_rms_m, 1e3 * check.expected_rms_m, fit.chi_squared,
-        check.degrees_of_freedom, check.chi_squared);
-  }
-  Refuse(what, frames, request, model);
-}
-
-double OffsetOfMarkers_m(const robot::RobotModel& model) {
-  constexpr double kShareOfExtent = 0.02;
-  const Eigen::Matrix3Xd& nodes_m = model.body().mesh.nodes_m;
-  return kShareOfExtent * (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).maxCoeff();
+  const std::string why = calibration::WhyRefused(*model, frames, fit, request);
+  if (why.empty()) return;
+  const std::string reasons = calibration::FindMisfitReasons(*model, frames, request).Text();
+  throw RunError(why + "; nothing was written. Likely reasons, the best first:\n" + reasons);
 }
 
 std::string WhatTellsAModulus(const std::vector<const experiment::Recording*>& recordings) {

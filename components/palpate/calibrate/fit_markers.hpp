@@ -21,15 +21,10 @@ calibration::JointCalibration FitMarkers(const std::vector<calibration::Calibrat
                                          calibration::JointRequest request,
                                          robot::RobotModel* model);
 
-/// Throws RunError, with the likely reasons, where the markers are farther from the model than
-/// noise and tolerances put them.
+/// Throws RunError, with the likely reasons, for a fit that cannot be (calibration::WhyRefused).
 void RequirePossible(const std::vector<calibration::CalibrationFrame>& frames,
                      const calibration::JointCalibration& fit,
                      const calibration::JointRequest& request, robot::RobotModel* model);
-
-/// Prior standard deviation of marker offsets, m, where displacements count from a reference
-/// window, which tells the places of markers.
-double OffsetOfMarkers_m(const robot::RobotModel& model);
 
 /// The recording that would determine a modulus that these do not: with known loads that are larger
 /// than theirs, which are named, or with one at all.

@@ -15,6 +15,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/fem/boundary_surface.hpp"
+#include "libs/robot/chamber_wall.hpp"
 
 namespace palpate::robot {
 
@@ -189,21 +190,7 @@ fem::TetMesh KeepCells(const fem::TetMesh& mesh,
 
 fem::MovingSurface CavityWall(const fem::TetMesh& mesh) {
   const fem::BoundarySurface boundary = fem::ExtractBoundary(mesh);
-  const std::vector<int> faces = fem::InnerSkins(mesh, boundary).at(0);
-  constexpr std::array<int, 6> kTurned{0, 2, 1, 5, 4, 3};
-  fem::MovingSurface wall;
-  wall.faces.resize(boundary.faces.rows(), std::ssize(faces));
-  std::map<int, int> point_of_node;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (Eigen::Index k = 0; k < wall.faces.rows(); ++k) {
-      const int node = boundary.faces(kTurned[At(k)], faces[f]);
-      const auto [entry, is_new] =
-          point_of_node.try_emplace(node, static_cast<int>(wall.points.size()));
-      if (is_new) wall.points.push_back({{node}, {1.0}});
-      wall.faces(k, ToIndex(f)) = entry->second;
-    }
-  }
-  return wall;
+  return WallOfFaces(boundary, fem::InnerSkins(mesh, boundary).at(0));
 }
 
 namespace {

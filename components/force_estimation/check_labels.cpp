@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/check_labels.hpp"
+#include "components/force_estimation/check_labels.hpp"
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
 
-namespace palpate::command {
+namespace palpate::force_estimation {
 
 namespace {
 
@@ -20,10 +20,10 @@ std::optional<experiment::TimeWindow> WindowAtRest(const experiment::Recording& 
   return experiment::TimeWindow{frames.front().t_s, frames.back().t_s};
 }
 
-force_estimation::RestMarkers PairAtRest(const experiment::MarkerTracks& tracks,
-                                         const experiment::TimeWindow& window_s,
-                                         const robot::RobotDescription& robot) {
-  force_estimation::RestMarkers pairs;
+RestMarkers PairAtRest(const experiment::MarkerTracks& tracks,
+                       const experiment::TimeWindow& window_s,
+                       const robot::RobotDescription& robot) {
+  RestMarkers pairs;
   const auto means = MeanOver(tracks, window_s);
   const auto most = ToIndex(robot.markers.size());
   pairs.measured_m.resize(3, most);
@@ -51,9 +51,9 @@ void CheckMarkerLabels(const experiment::Experiment& experiment,
     const std::optional<experiment::TimeWindow> window_s = WindowAtRest(recording);
     if (!window_s) continue;
     const auto pairs = PairAtRest(*recording.markers, *window_s, robot);
-    const auto exchange = force_estimation::FindExchangedLabels(pairs);
+    const auto exchange = FindExchangedLabels(pairs);
     if (exchange) throw InputError(recording.folder.string() + ": " + ToText(*exchange));
   }
 }
 
-}  // namespace palpate::command
+}  // namespace palpate::force_estimation

@@ -6,7 +6,7 @@
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/robot_description.hpp"
 
-namespace palpate::command {
+namespace palpate::force_estimation {
 
 /// Compares the markers of each recording at rest (kind rest, or its reference window) with the
 /// robot file's. Throws InputError with the recording and the labels that look exchanged, before
@@ -14,4 +14,4 @@ namespace palpate::command {
 void CheckMarkerLabels(const experiment::Experiment& experiment,
                        const robot::RobotDescription& robot);
 
-}  // namespace palpate::command
+}  // namespace palpate::force_estimation
