@@ -4,6 +4,7 @@
 """Calibration from markers: the same as `palpate calibrate`, and Ctrl-C."""
 
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -43,6 +44,26 @@ class OfTheBeam(unittest.TestCase):
                 [line for line in file.read_text().splitlines() if not line.startswith("date_utc")]
                 for file in files)
         self.assertEqual(by_program, by_python)
+
+    def test_exchanged_labels_are_refused_as_by_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder, "experiment")
+            shutil.copytree(BEAM_DATA, copy)
+            settings = copy / "experiment.yaml"
+            text = settings.read_text()
+            settings.write_text(text.replace("../../../config/robots/beam.yaml", BEAM))
+            for markers in copy.glob("recordings/*/markers.csv"):
+                text = markers.read_text()
+                for old, new in (("Tip-1", "?"), ("Tip-3", "Tip-1"), ("?", "Tip-3")):
+                    text = text.replace(f",{old},", f",{new},")
+                markers.write_text(text)
+            said = run_palpate("calibrate", BEAM, "--data", str(copy), "--out",
+                               pathlib.Path(folder, "c.yaml"), allowed=(1, 2))
+            robot = palpate.Robot(BEAM)
+            recording = palpate.Experiment(str(copy)).recording("self_weight")
+            with self.assertRaisesRegex(palpate.InputError, "exchanged") as raised:
+                palpate.calibrate(robot, [recording])
+        self.assertIn(str(raised.exception), said)
 
     def test_without_recordings_or_of_unknown_parts_it_is_refused(self):
         robot = palpate.Robot(BEAM)
