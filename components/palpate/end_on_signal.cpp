@@ -5,10 +5,13 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <system_error>
+#include <thread>
 
 #include "libs/app/run_main.hpp"
 
@@ -18,14 +21,20 @@ namespace {
 
 std::mutex g_folder_mutex;
 std::filesystem::path g_folder;
+std::atomic<bool> g_work_waits = false;  // in RemoveOnSignal
 
-/// Others may still write into it, and remove_all then finds it filled again.
+/// The work goes on beside this and may make the folder again. So the folder is removed until the
+/// work has failed for want of it and waits, or for as long as a single write may take.
 void RemoveFolder() {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point deadline = Clock::now() + std::chrono::seconds(2);
   std::error_code ignored;
-  constexpr int kAttempts = 100;
-  for (int i = 0; i < kAttempts && std::filesystem::exists(g_folder, ignored); ++i) {
+  bool work_waits = false;
+  do {
+    work_waits = g_work_waits;
     std::filesystem::remove_all(g_folder, ignored);
-  }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  } while (!work_waits && Clock::now() < deadline);
 }
 
 void End(const std::string& line) {
@@ -40,7 +49,9 @@ void End(const std::string& line) {
 }  // namespace
 
 void RemoveOnSignal(const std::filesystem::path& folder) {
+  g_work_waits = true;
   const std::lock_guard lock(g_folder_mutex);
+  g_work_waits = false;
   g_folder = folder;
 }
 
