@@ -12,6 +12,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
+#include "libs/geometry/ray.hpp"
 
 namespace palpate::geometry {
 
@@ -63,21 +64,7 @@ Eigen::Vector3d ClosestPointOnTriangle(const Eigen::Vector3d& a_m, const Eigen::
 
 bool RayMeets(const TriangleSurface& surface, const Eigen::Vector3d& origin_m,
               const Eigen::Vector3d& direction) {
-  PALPATE_CHECK(!direction.isZero(0.0), direction.transpose());
-  for (int t = 0; t < surface.TriangleCount(); ++t) {
-    const Eigen::Vector3d corner_m = surface.Corner(t, 0);
-    const Eigen::Vector3d edge1_m = surface.Corner(t, 1) - corner_m;
-    const Eigen::Vector3d edge2_m = surface.Corner(t, 2) - corner_m;
-    const Eigen::Vector3d p = direction.cross(edge2_m);
-    const double determinant = edge1_m.dot(p);
-    if (determinant == 0.0) continue;  // parallel to the triangle
-    const Eigen::Vector3d from_corner_m = origin_m - corner_m;
-    const double u = from_corner_m.dot(p) / determinant;
-    const Eigen::Vector3d q = from_corner_m.cross(edge1_m);
-    const double v = direction.dot(q) / determinant;
-    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && edge2_m.dot(q) / determinant > 0.0) return true;
-  }
-  return false;
+  return FirstOnRay(surface, origin_m, direction).has_value();
 }
 
 SurfaceIndex::SurfaceIndex(TriangleSurface surface) : surface_(std::move(surface)) {

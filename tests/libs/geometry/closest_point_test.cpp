@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "libs/geometry/closest_point.hpp"
+#include "libs/geometry/ray.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,22 @@ TEST(ClosestPointOnTriangle, TreatsATriangleWithoutAreaAsItsEdges) {
   const Eigen::Vector3d weights = ClosestPointOnTriangle(a, b, c, {1.5, 1.0, 0.0});
   EXPECT_TRUE((weights(0) * a + weights(1) * b + weights(2) * c)
                   .isApprox(Eigen::Vector3d(1.5, 0, 0), 1e-14));
+}
+
+TEST(FirstOnRay, IsTheNearerWallOfTwo) {
+  const TriangleSurface cube = UnitCube();
+  const Eigen::Vector3d origin_m(-1.0, 0.4, 0.3), direction(2.0, 0.1, 0.1);
+  const auto hit = FirstOnRay(cube, origin_m, direction);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->position_m.x(), 0.0, 1e-14);
+  EXPECT_NEAR(hit->distance_m, (hit->position_m - origin_m).norm(), 1e-14);
+  EXPECT_NEAR((hit->position_m - origin_m).cross(direction).norm(), 0.0, 1e-14);
+  Eigen::Vector3d by_corners_m = Eigen::Vector3d::Zero();
+  for (int corner = 0; corner < 3; ++corner) {
+    by_corners_m += hit->barycentric[corner] * cube.Corner(hit->triangle, corner);
+  }
+  EXPECT_TRUE(by_corners_m.isApprox(hit->position_m, 1e-13));
+  EXPECT_FALSE(FirstOnRay(cube, origin_m, -direction));
 }
 
 TEST(RayMeets, TheWallsAroundAPointAndNothingBehindIt) {
