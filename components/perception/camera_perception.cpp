@@ -9,6 +9,7 @@
 
 #include "components/perception/contacts/contact_locator.hpp"
 #include "components/perception/markers/fiducial_detector.hpp"
+#include "components/perception/texture/texture_tracker.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
@@ -19,13 +20,18 @@ struct CameraPerception::Parts {
   std::unique_ptr<Segmenter> segmenter;
   ContactLocator locator;
   std::optional<FiducialDetector> markers;
-  bool has_camera = false;
+  TextureConfig texture_config;
+  std::optional<TextureTracker> texture;
+  std::optional<rgbd::RgbdCamera> camera;
 };
 
 CameraPerception::CameraPerception(const Config& config, std::unique_ptr<Segmenter> segmenter)
     : parts_(new Parts{.segmenter = std::move(segmenter),
                        .locator = ContactLocator(config.contacts),
-                       .markers = {}}) {
+                       .markers = {},
+                       .texture_config = config.texture,
+                       .texture = {},
+                       .camera = {}}) {
   PALPATE_CHECK(parts_->segmenter != nullptr);
   if (config.max_z_m <= config.min_z_m) {
     throw InputError("max_z_m is " + FormatNumber(config.max_z_m) +
@@ -45,15 +51,24 @@ CameraPerception& CameraPerception::operator=(CameraPerception&&) noexcept = def
 void CameraPerception::SetCamera(const rgbd::RgbdCamera& camera) {
   parts_->segmenter->SetCamera(camera);
   if (parts_->markers) parts_->markers->SetCamera(camera);
-  parts_->has_camera = true;
+  if (parts_->camera == camera) return;  // it shows the same robot: its points stay known
+  parts_->camera = camera;
+  const bool follows = camera.color.width_px > 0 && parts_->texture_config.max_points > 0;
+  parts_->texture.reset();
+  if (follows) parts_->texture.emplace(parts_->texture_config, camera);
 }
 
 const std::vector<DetectedContact>& CameraPerception::Look(const rgbd::RgbdFrame& frame,
                                                            const PredictedSurface* predicted,
                                                            CameraView* seen) {
-  PALPATE_CHECK(parts_->has_camera);
+  PALPATE_CHECK(parts_->camera.has_value());
   seen->frame = parts_->segmenter->Segment(frame, predicted);
   if (parts_->markers) seen->markers = parts_->markers->Detect(frame);
+  if (parts_->texture) {
+    seen->texture =
+        parts_->texture->Follow(frame, parts_->segmenter->FittedSurface(), seen->frame.object);
+    if (const auto& note = parts_->texture->note()) seen->frame.notes.push_back(*note);
+  }
   return parts_->locator.Locate(seen->frame.robot, seen->frame.object,
                                 parts_->segmenter->FittedSurface());
 }

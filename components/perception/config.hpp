@@ -12,6 +12,7 @@
 #include "components/perception/contact_config.hpp"
 #include "components/perception/fiducial_config.hpp"
 #include "components/perception/model_config.hpp"
+#include "components/perception/texture_config.hpp"
 #include "libs/core/config_reader.hpp"
 #include "libs/rgbd/depth_noise.hpp"
 
@@ -31,6 +32,7 @@ struct Config {
   ContactConfig contacts;
   TrackingConfig tracking;
   ModelConfig model;
+  TextureConfig texture;
   FiducialConfig markers;
 
   template <typename Visitor>
@@ -55,6 +57,7 @@ struct Config {
     v("contacts", contacts, "Contact location");
     v("tracking", tracking, "Contact tracking");
     v("model", model, "Segmentation by the predicted surface");
+    v("texture", texture, "Points of the robot's texture");
     v("markers", markers, "Coloured discs on the robot");
   }
 };

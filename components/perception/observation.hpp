@@ -12,6 +12,7 @@
 #include "libs/core/status.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
+#include "libs/rgbd/texture_points.hpp"
 
 namespace palpate::perception {
 
@@ -53,7 +54,8 @@ struct DetectedContact {
 /// What one camera shows in a frame.
 struct CameraView {
   SegmentedFrame frame;
-  FiducialFrame markers;  ///< kNotRun where Config::markers has no colour
+  FiducialFrame markers;        ///< kNotRun where Config::markers has no colour
+  rgbd::TexturePoints texture;  ///< none where there is no colour, texture or predicted surface
 };
 
 /// Result of perception for one frame.

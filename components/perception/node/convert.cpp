@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/dds/camera_messages.hpp"
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
@@ -110,6 +111,15 @@ dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& o
   report->at_depth_edge = static_cast<std::uint64_t>(frame.rejected.at_depth_edge);
   report->ambiguous = static_cast<std::uint64_t>(frame.rejected.ambiguous);
   report->thinned = static_cast<std::uint64_t>(frame.rejected.thinned);
+  const rgbd::TexturePoints& texture = outcome.observation.texture;
+  dds::SetVector(report->texture_origin_m, texture.origin_m);
+  dds::Resize(report->texture, texture.ids.size());
+  for (std::size_t i = 0; i < texture.ids.size(); ++i) {
+    auto& point = report->texture._buffer[i];
+    point.id = texture.ids[i];
+    Eigen::Vector3f::Map(point.direction) = texture.directions.col(ToIndex(i));
+    point.sigma_rad = texture.sigma_rad[ToIndex(i)];
+  }
   dds::Resize(report->notes, frame.notes.size());
   for (std::size_t i = 0; i < frame.notes.size(); ++i) {
     dds::SetText(report->notes._buffer[i], frame.notes[i]);
