@@ -26,6 +26,11 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
 /// Perception's status of a frame of the camera.
 Status StatusOfPerception(const idl::palpate_msgs::PerceptionReport& message);
 
+/// Points of the robot's texture, camera frame. kInvalidInput for numbers that are not finite,
+/// directions that are no unit vectors, and a sigma that is not above 0.
+Status FromTexture(const idl::palpate_msgs::PerceptionReport& message,
+                   rgbd::TexturePoints* texture);
+
 /// Contacts of the camera frame, in the robot frame. kInvalidInput for numbers that are not finite.
 Status FromContactArray(const idl::palpate_msgs::ContactArray& message,
                         const Eigen::Isometry3d& T_robot_camera,

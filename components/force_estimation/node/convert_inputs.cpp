@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "libs/core/index.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/invalid_message.hpp"
 #include "libs/dds/named_markers.hpp"
@@ -77,6 +78,29 @@ Status StatusOfPerception(const idl::palpate_msgs::PerceptionReport& message) {
     if (word == ToString(code)) return {code, std::string(dds::Text(message.reason))};
   }
   return {StatusCode::kNoRobotSeen, std::string(dds::Text(message.reason))};
+}
+
+Status FromTexture(const idl::palpate_msgs::PerceptionReport& message,
+                   rgbd::TexturePoints* texture) {
+  constexpr float kUnitTolerance = 1e-4f;
+  const auto count = ToIndex(message.texture._length);
+  *texture = {};
+  texture->origin_m = dds::ToVector(message.texture_origin_m);
+  texture->directions.resize(3, count);
+  texture->sigma_rad.resize(count);
+  bool is_valid = texture->origin_m.allFinite();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto& point = message.texture._buffer[k];
+    texture->ids.push_back(point.id);
+    texture->directions.col(k) = Eigen::Vector3f::Map(point.direction);
+    texture->sigma_rad[k] = point.sigma_rad;
+    const float length = texture->directions.col(k).norm();
+    is_valid = is_valid && std::abs(length - 1.0f) < kUnitTolerance && point.sigma_rad > 0.0f &&
+               std::isfinite(point.sigma_rad);
+  }
+  if (is_valid) return Status::Ok();
+  *texture = {};
+  return Invalid("a point of the robot's texture is no line of sight");
 }
 
 Status FromContactArray(const idl::palpate_msgs::ContactArray& message,

@@ -108,7 +108,12 @@ void ShapeSource::TakeReports() {
                             dds::ToPicture(message.picture)},
                            message.frame_counter,
                            StatusOfPerception(message),
-                           message.age_s};
+                           message.age_s,
+                           {}};
+    const Status status = FromTexture(message, &parts->report->texture);
+    if (!status.ok()) {
+      parts->status = {status.code(), "/perception/report: " + status.message()};
+    }
   }
   HandOverComplete();
 }
@@ -207,6 +212,7 @@ FrameInput ShapeSource::InputOf(Parts parts) const {
   shape.frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
   shape.frame.views[0].cloud = std::move(*parts.cloud);
   shape.frame.views[0].T_robot_camera = *T_robot_camera_;
+  shape.frame.views[0].texture = std::move(parts.report->texture);
   shape.frame.epoch = parts.report->origin.epoch;
   shape.frame.contacts = std::move(*parts.contacts);
   return input;

@@ -55,6 +55,7 @@ class ShapeSource : public FrameSource {
     uint64_t frame_counter = 0;
     Status perception;
     double age_s = 0.0;  ///< of the frame, when it was sent
+    rgbd::TexturePoints texture;
   };
   /// The parts of a frame that have come so far.
   struct Parts {

@@ -111,8 +111,9 @@ void ShapePipeline::Monitor() {
   drift_measured_s_ = frame.t_s;
   drift_monitors_.resize(std::max(drift_monitors_.size(), frame.views.size()));
   for (std::size_t k = 0; k < frame.views.size(); ++k) {
-    const auto& [cloud, T_robot_camera] = frame.views[k];
-    drift_monitors_[k].Add(frame.t_s, SeeMotion(fixed_region_, cloud, T_robot_camera, nodes_m_));
+    const ShapeView& view = frame.views[k];
+    drift_monitors_[k].Add(frame.t_s,
+                           SeeMotion(fixed_region_, view.cloud, view.T_robot_camera, nodes_m_));
   }
 }
 

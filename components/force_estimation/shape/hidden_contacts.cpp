@@ -205,7 +205,7 @@ Status HiddenContacts::Respond(const std::vector<robot::ActuatorCommand>& cables
   }
   std::vector<robot::ObservationRow> rows;
   std::vector<std::size_t> matches;
-  row_of_match_.resize(std::max(row_of_match_.size(), fit_.matches().size()), -1);
+  row_of_match_.resize(std::max(row_of_match_.size(), fit_.targets().MostRows()), -1);
   for (std::size_t r = 0; r < fit_.targets().matched().size(); ++r) {
     const std::size_t match = fit_.targets().matched()[r];
     if (row_of_match_[match] >= 0) continue;

@@ -27,6 +27,7 @@ ShapeFitter::ShapeFitter(robot::RobotModel& model, const Config& config, const S
       tuning_(tuning),
       features_(model.body()),
       matching_(features_, shape, tuning.matching),
+      texture_(features_),
       targets_(shape, config.contact_marker_weight, tuning.targets),
       tracks_(model, shape, tuning.tracks),
       fitter_(model, FitConfig(config, shape)),
@@ -166,10 +167,11 @@ Status ShapeFitter::Match(const ShapeFrame& frame) {
 Status ShapeFitter::MatchAndFit(const ShapeFrame& frame, const CameraBiases& bias) {
   Status status;
   const int rounds = MatchingRounds();
+  const std::vector<TextureMatch>& texture = texture_.Match(frame);
   for (int round = 0; round < rounds; ++round) {
     if (status = Match(frame); !status.ok()) return status;
     poses_ = frame.Poses();
-    targets_.Build(*matches_, bias, poses_, state_.x_m, bias_x_m_, sites());
+    targets_.Build(*matches_, texture, bias, poses_, state_.x_m, bias_x_m_, sites());
     targets_.WeighAt(state_.x_m);
     fitter_.SetRows(targets_.rows());
     matched_x_m_ = state_.x_m;
@@ -189,10 +191,10 @@ int ShapeFitter::MatchingRounds() const {
 }
 
 Eigen::MatrixXd ShapeFitter::SharedBias_m() const {
-  const std::vector<std::size_t>& matched = targets_.matched();
-  Eigen::MatrixXd rows_m(ToIndex(matched.size()), along_->Shared().size());
-  for (std::size_t r = 0; r < matched.size(); ++r) {
-    rows_m.row(ToIndex(r)) = along_->ScaledBasis((*matches_)[matched[r]], poses_).transpose();
+  Eigen::MatrixXd rows_m = Eigen::MatrixXd::Zero(targets_.Count(), along_->Shared().size());
+  for (int r = 0; r < targets_.AlongNormals(); ++r) {
+    const correspondence::FeatureMatch& match = (*matches_)[targets_.matched()[At(r)]];
+    rows_m.row(r) = along_->ScaledBasis(match, poses_).transpose();
   }
   return rows_m;
 }

@@ -16,6 +16,7 @@
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/shape_targets.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
+#include "components/force_estimation/shape/texture_motion.hpp"
 #include "libs/core/index.hpp"
 #include "libs/correspondence/surface_features.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -109,6 +110,8 @@ class ShapeFitter {
   bool SeeAgain(const ShapeFrame& frame);
   /// Matches the surface points about the present state. kNoRobotSeen where too few match.
   Status Match(const ShapeFrame& frame);
+  /// Binds the texture of a contact-free frame to the present state.
+  void LearnTexture(const ShapeFrame& frame) { texture_.Learn(frame, state_.x_m); }
   /// Matches and fits forces, in rounds, until the surface points are at rest. kBudgetReached: the
   /// state is valid and nearer, but the frame's work is used up.
   Status MatchAndFit(const ShapeFrame& frame, const CameraBiases& bias);
@@ -198,6 +201,7 @@ class ShapeFitter {
   ShapeFitterTuning tuning_;
   correspondence::SurfaceFeatures features_;
   SurfaceMatching matching_;
+  TextureMotion texture_;
   ShapeTargets targets_;
   ContactTracks tracks_;
   ForceFitter fitter_;

@@ -146,12 +146,15 @@ Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
       return {StatusCode::kInvalidInput, "an input of an actuator is not a finite number"};
     }
   }
-  for (const auto& [cloud, T_robot_camera] : frame.views) {
+  for (const auto& [cloud, T_robot_camera, texture] : frame.views) {
     if (!T_robot_camera.matrix().allFinite()) {
       return {StatusCode::kNoCalibration, "the camera's pose is not known"};
     }
     if (!cloud.points_m.allFinite() || !cloud.sigma_m.allFinite()) {
       return {StatusCode::kInvalidInput, "the robot cloud holds NaN"};
+    }
+    if (!texture.directions.allFinite() || !texture.sigma_rad.allFinite()) {
+      return {StatusCode::kInvalidInput, "a point of texture holds NaN"};
     }
   }
   return Status::Ok();
@@ -164,6 +167,7 @@ Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
   if (Status status = fit_.Match(frame); !status.ok()) return status;
   if (bias_.frames() == 0) fit_.SetBiasShape(fit_.state().x_m);
   bias_.Learn(fit_.matches(), fit_.state().x_m, frame.Poses(), frame.epoch);
+  fit_.LearnTexture(frame);
   return {StatusCode::kNoCalibration, "the depth bias is being estimated: frame " +
                                           std::to_string(bias_.frames()) + " without contact"};
 }
@@ -187,7 +191,9 @@ bool ShapeForceEstimator::Impl::SeesByUnknownBias(const ShapeFrame& frame) const
 /// The frame without what such cameras see.
 ShapeFrame ShapeForceEstimator::Impl::OfKnownBias(ShapeFrame frame) const {
   for (std::size_t k = 0; k < frame.views.size(); ++k) {
-    if (!bias_.IsKnown(k)) frame.views[k].cloud = {};
+    if (bias_.IsKnown(k)) continue;
+    frame.views[k].cloud = {};
+    frame.views[k].texture = {};
   }
   return frame;
 }
@@ -384,9 +390,9 @@ void ShapeForceEstimator::Impl::ReportFeatures() {
         .position_m = fit_.features().point(static_cast<int>(f)).Position(fit_.state().x_m)};
   }
   const ShapeTargets& targets = fit_.targets();
-  for (std::size_t r = 0; r < targets.features().size(); ++r) {
-    const auto row = ToIndex(r);
-    FeatureReport& feature = features_[At(targets.features()[r])];
+  for (int r = 0; r < targets.AlongNormals(); ++r) {
+    const auto row = ToIndex(At(r));
+    FeatureReport& feature = features_[At(targets.features()[At(r)])];
     if (feature.sigma_m > 0.0 && feature.sigma_m <= targets.sigma_m()[row]) continue;
     feature.state = correspondence::MatchState::kMatched;
     feature.residual_m = fit_.fitter().fit().residual_m[row];

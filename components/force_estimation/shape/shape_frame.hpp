@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libs/rgbd/sensed_cloud.hpp"
+#include "libs/rgbd/texture_points.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -31,6 +32,7 @@ struct ShapeView {
   rgbd::SensedCloud cloud;  ///< the robot's points, camera frame; empty: the camera sees none, or
                             ///< has no image of this time
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+  rgbd::TexturePoints texture = {};  ///< that the camera follows, camera frame
 };
 
 /// T_robot_camera of each camera.

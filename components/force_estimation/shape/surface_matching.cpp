@@ -21,7 +21,7 @@ namespace palpate::force_estimation {
 namespace {
 
 void CheckInput(const ShapeFrame& frame, const Eigen::VectorXd& x_m, int last_node) {
-  for (const auto& [cloud, T_robot_camera] : frame.views) {
+  for (const auto& [cloud, T_robot_camera, texture] : frame.views) {
     PALPATE_CHECK(cloud.sigma_m.size() == cloud.Count(), cloud.sigma_m.size(), cloud.Count());
     PALPATE_CHECK(cloud.points_m.allFinite());
     PALPATE_CHECK(cloud.Count() == 0 ||
@@ -124,7 +124,7 @@ const std::vector<correspondence::FeatureMatch>& SurfaceMatching::Match(
 
 void SurfaceMatching::Parts::MatchView(const ShapeView& seen, const Eigen::VectorXd& x_m,
                                        std::span<correspondence::FeatureMatch> of_camera) {
-  const auto& [cloud, T_robot_camera] = seen;
+  const auto& [cloud, T_robot_camera, texture] = seen;
   if (cloud.Count() == 0) return;
   const correspondence::MatchDistances distances = ChooseDistances(config, cloud, tuning);
   surface.MoveTo(x_m, T_robot_camera.inverse());

@@ -261,7 +261,8 @@ force_estimation::ShapeFrame MakeShapeFrame(const perception::JointObservation& 
   force_estimation::ShapeFrame frame;
   frame.views.clear();
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    frame.views.push_back({observation.views[k].frame.robot, poses[k]});
+    const perception::CameraView& view = observation.views[k];
+    frame.views.push_back({view.frame.robot, poses[k], view.texture});
   }
   for (const perception::DetectedContact& contact : observation.contacts) {
     frame.contacts.push_back(

@@ -28,7 +28,7 @@ class Average : public testing::Test {
       match.normal = Eigen::Vector3d::UnitZ();
       match.row = {.nodes = {0}, .coefficients = {Eigen::Vector3d::UnitZ()}};
     }
-    targets_.Build(matches, bias, {Eigen::Isometry3d::Identity()}, Eigen::VectorXd::Zero(3),
+    targets_.Build(matches, {}, bias, {Eigen::Isometry3d::Identity()}, Eigen::VectorXd::Zero(3),
                    Eigen::VectorXd::Zero(3), {});
   }
 

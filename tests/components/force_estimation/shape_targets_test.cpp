@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
 
 #include "components/force_estimation/shape/camera_biases.hpp"
@@ -34,7 +35,7 @@ class Targets : public testing::Test {
   }
 
   void Build(const std::vector<ShapeSite>& sites = {}) {
-    targets_.Build(matches_, bias_, kHere, x_m_, x_m_, sites);
+    targets_.Build(matches_, texture_, bias_, kHere, x_m_, x_m_, sites);
   }
   /// Weight of a row over that of the first.
   double Share(Eigen::Index row) const {
@@ -45,6 +46,7 @@ class Targets : public testing::Test {
   ShapeConfig config_;
   Eigen::VectorXd x_m_ = Eigen::VectorXd::Zero(3 * kFeatures);
   std::vector<correspondence::FeatureMatch> matches_;
+  std::vector<TextureMatch> texture_;
   ShapeTargets targets_;
   CameraBiases bias_;
 };
@@ -60,9 +62,31 @@ TEST_F(Targets, OnlyMatchedFeaturesAreRows) {
 TEST_F(Targets, AFeatureThatHasMovedIsKnownByTheModelsShareOfThat) {
   Eigen::VectorXd moved_m = x_m_;
   moved_m[3 * 4] = 0.01;
-  targets_.Build(matches_, bias_, kHere, moved_m, x_m_, {});
+  targets_.Build(matches_, texture_, bias_, kHere, moved_m, x_m_, {});
   EXPECT_NEAR(targets_.sigma_m()[4], config_.model_relative_sigma * 0.01, 0.02 * 3e-4);
   EXPECT_LT(targets_.sigma_m()[5], 1.5 * kSigma_m);
+}
+
+TEST_F(Targets, TextureHasTwoRowsAfterThoseAlongNormals) {
+  constexpr double kImage_m = 5e-5;
+  matches_[3].state = correspondence::MatchState::kHidden;
+  TextureMatch& match = texture_.emplace_back();
+  match.feature = 4;
+  match.number = 4;
+  match.place = {.nodes = {4}, .weights = {1.0}};
+  match.rows[0] = {.nodes = {4}, .coefficients = {Eigen::Vector3d::UnitY()}};
+  match.rows[1] = {.nodes = {4}, .coefficients = {Eigen::Vector3d::UnitZ()}};
+  match.target_m = {1e-3, 2e-3};
+  match.sigma_m = kImage_m;
+  Build();
+  ASSERT_EQ(targets_.Count(), kFeatures - 1 + 2);
+  ASSERT_EQ(targets_.AlongNormals(), kFeatures - 1);
+  EXPECT_EQ(targets_.targets().value_m.tail<2>(), match.target_m) << "no depth bias shifts it";
+  EXPECT_NEAR(targets_.targets().weight.tail<1>()[0], 1.0 / (kImage_m * kImage_m), 1e-3);
+  EXPECT_EQ(targets_.features().back(), 4);
+  std::set<std::size_t> numbers(targets_.matched().begin(), targets_.matched().end());
+  EXPECT_EQ(numbers.size(), targets_.matched().size()) << "each row has a number of its own";
+  EXPECT_LT(*numbers.rbegin(), targets_.MostRows());
 }
 
 TEST_F(Targets, AnOutlierLosesWeightAsHubersDoes) {

@@ -127,7 +127,8 @@ force_estimation::ShapeFrame SensingChain::Perceive() {
   force_estimation::ShapeFrame frame;
   frame.views.clear();
   for (std::size_t k = 0; k < images.size(); ++k) {
-    frame.views.push_back({seen.views[k].frame.robot, scene_.T_robot_camera(k)});
+    frame.views.push_back(
+        {seen.views[k].frame.robot, scene_.T_robot_camera(k), seen.views[k].texture});
   }
   for (const perception::DetectedContact& contact : seen.contacts) {
     frame.contacts.push_back(
