@@ -30,11 +30,11 @@ struct TextureMatch {
   fem::InterpolationWeights place;                     ///< of the first of the points
 };
 
-/// Tangential motion of the skin. Points of texture that a camera follows are bound to the body in
-/// contact-free frames, in which its shape is known: where their line of sight meets the surface.
-/// Later each tells two coordinates of its material point, those across its line of sight. What is
-/// constant (the error of the camera pose, of the mesh, of the point's first picture) is measured
-/// in the contact-free frames, too, and cancels.
+/// Tangential motion of the surface. Points of texture that a camera follows are bound to the body
+/// in contact-free frames, in which its shape is known: where their line of sight meets the
+/// surface. Later each tells two coordinates of its material point, those across its line of sight.
+/// What is constant (the error of the camera pose, of the mesh, of the point's first image) is
+/// measured in the contact-free frames, too, and cancels.
 class TextureMotion {
  public:
   /// `features` must outlive this.

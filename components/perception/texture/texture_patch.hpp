@@ -14,7 +14,7 @@ namespace palpate::perception {
 struct TexturePatchTuning {
   int most_steps = 12;  ///< of Gauss and Newton; more: from farther, slower
   float step_at_rest_px = 0.01f;
-  /// Correlation with the picture, below which it shows something else. Smaller: wrong places;
+  /// Correlation with the patch, below which it shows something else. Smaller: wrong places;
   /// larger: points are lost where the light changes.
   float least_correlation = 0.8f;
   /// Standard deviation of what interpolation and facets add to a place. Smaller: trusted more than
@@ -32,7 +32,7 @@ struct FoundPatch {
 /// A square of an image about a point of texture, as it was when it was first seen. It is found
 /// again by the inverse compositional method of Lucas and Kanade (Baker and Matthews 2004): the
 /// patch is warped as the surface is known to have turned, its gain and brightness are free, and
-/// its place is estimated. Every frame is compared with the first picture, so nothing drifts.
+/// its place is estimated. Every frame is compared with the first image, so nothing drifts.
 class TexturePatch {
  public:
   static constexpr int kHalf_px = 7;

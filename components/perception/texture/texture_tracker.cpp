@@ -204,7 +204,7 @@ std::optional<TextureTracker::Track> TextureTracker::TrackAt(const rgbd::RgbdFra
   Eigen::Matrix3d corners_m;
   for (int i = 0; i < 3; ++i) corners_m.col(i) = vertices_m_.col(triangles_(i, triangle));
   // The ray is a mix of the corners: shares that add up to 1 are those of its point.
-  const Eigen::Vector3d shares = corners_m.partialPivLu().solve(ray);
+  const Eigen::Vector3d shares = Eigen::PartialPivLU<Eigen::Matrix3d>(corners_m).solve(ray);
   const Eigen::Vector3d barycentric = shares / shares.sum();
   if (!barycentric.allFinite()) return std::nullopt;
   const Eigen::Vector3d point_m = PointOf(triangle, barycentric);
@@ -242,7 +242,7 @@ void TextureTracker::Judge(int in_view) {
   frames_without_texture_ = in_view < tuning_.fewest_points ? frames_without_texture_ + 1 : 0;
   if (frames_without_texture_ < tuning_.frames_to_judge) return;
   note_ =
-      "the robot's skin shows too little texture to follow: its tangential motion is not "
+      "the robot's surface shows too little texture to follow: its tangential motion is not "
       "measured";
 }
 

@@ -29,7 +29,7 @@ struct TextureTrackerTuning {
   /// Cosine of the angle between line of sight and normal, below which a point is not looked for.
   double grazing = 0.35;
   /// Depth before the surface from which something hides it. Smaller: depth noise hides points;
-  /// larger: objects count as skin.
+  /// larger: objects count as surface.
   double hidden_m = 8e-3;
   /// Before new points are looked for; where there are none the pause doubles. Fewer: slower.
   int frames_to_look_again = 5;
@@ -49,7 +49,7 @@ struct TextureTrackerTuning {
 /// Follows points of the robot's texture in the colour image. A point is bound to the triangle of
 /// the model's surface on which it was first seen, which says where it should be and how its
 /// surroundings have turned; the image says where it is. All frames are compared with the first
-/// picture of a point, so that nothing drifts.
+/// image of a point, so that nothing drifts.
 class TextureTracker {
  public:
   /// `camera` must have a colour camera.
@@ -61,7 +61,7 @@ class TextureTracker {
   const rgbd::TexturePoints& Follow(const rgbd::RgbdFrame& frame, const PredictedSurface* surface,
                                     const rgbd::SensedCloud& objects);
 
-  /// What is to be said of the last frame: that the skin has no texture.
+  /// What is to be said of the last frame: that the surface has no texture.
   const std::optional<std::string>& note() const { return note_; }
 
  private:

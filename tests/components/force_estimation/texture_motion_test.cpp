@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kSigma_rad = 1e-4f;
 
-/// Some points on the skin of the four-legged robot, seen by a camera in front of it.
+/// Some points on the surface of the four-legged robot, seen by a camera in front of it.
 class TextureMotionTest : public testing::Test {
  protected:
   TextureMotionTest()
@@ -110,7 +110,8 @@ TEST_F(TextureMotionTest, AConstantErrorOfTheCameraCancels) {
   Eigen::VectorXd moved_m = rest_m_;
   for (Eigen::Index n = 0; n < moved_m.size() / 3; ++n) moved_m[3 * n + 1] += 2e-3;
   EXPECT_GT(LargestResidual_m(motion.Match(See(moved_m, error_rad)), moved_m), 1e-3);
-  EXPECT_LT(LargestResidual_m(turned.Match(See(moved_m, error_rad)), moved_m), 1e-4) << "the rest is of its depth";
+  EXPECT_LT(LargestResidual_m(turned.Match(See(moved_m, error_rad)), moved_m), 1e-4)
+      << "the rest is of its depth";
 }
 
 TEST_F(TextureMotionTest, TheMeanOverContactFreeFramesIsTakenOff) {
