@@ -21,9 +21,9 @@ clutter: 0
 tools: [{{name: ball, shape: sphere, radius_m: 0.010, friction_coefficient: 0.3,
          color_rgb: [0.15, 0.30, 0.80]}}]
 camera:
-  depth: {{width_px: 212, height_px: 120, fx_px: 106.25, fy_px: 106.25, cx_px: 105.5, cy_px: 59.5,
+  depth: {{width_px: 424, height_px: 240, fx_px: 212.5, fy_px: 212.5, cx_px: 211.5, cy_px: 119.5,
           unit_m: 0.0001, baseline_m: 0.1}}
-  color: {{width_px: 212, height_px: 120, fx_px: 106.25, fy_px: 106.25, cx_px: 105.5, cy_px: 59.5,
+  color: {{width_px: 424, height_px: 240, fx_px: 212.5, fy_px: 212.5, cx_px: 211.5, cy_px: 119.5,
           registered_to_depth: true}}
   eye_m: [0.343, -0.198, 0.275]
   target_m: [0, 0, 0.065]
@@ -143,7 +143,7 @@ class OfASimulatedPush(unittest.TestCase):
         steps, color = self.push.depth_steps(0), self.push.color(0)
         for arrays, words in (
             ((self.push.depth_m(0), color), "depth_steps must be an array of uint16"),
-            ((steps.astype(np.int32), color), "of the shape \\(120, 212\\)"),
+            ((steps.astype(np.int32), color), "of the shape \\(240, 424\\)"),
             ((steps[:-1], color), "as its camera says"),
             ((steps, color[:, :, :2]), "color must be an array of uint8 of the shape"),
         ):

@@ -28,7 +28,7 @@ class ImageExport : public TopicExport {
       return "encoding '32FC1' cannot be a PNG; `palpate export --experiment` makes 16-bit images "
              "of it";
     }
-    RosDepth depth;
+    offline::RosDepth depth;
     if (std::string cause = DecodeRosDepth(image, &depth); !cause.empty()) return cause;
     std::filesystem::create_directories(folder_);
     rgbd::WriteDepthPng(file, depth.steps);
