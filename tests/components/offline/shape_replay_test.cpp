@@ -15,6 +15,7 @@
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/components/palpate/test_robot.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::offline {
 namespace {
@@ -158,7 +159,7 @@ class ShapeReplayTest : public testing::Test {
     return flags;
   }
 
-  TestFolder folder_;
+  test_support::TestFolder folder_;
   std::unique_ptr<robot::RobotModel> model_;
   experiment::Experiment experiment_;
   Fakes fake_;
