@@ -57,11 +57,12 @@ def transform(parent, child, translation_m, rotation_xyzw):
 def write_db3(path, messages):
     """`messages`: topic, type, time in ns, Cdr."""
     with sqlite3.connect(path) as database:
-        database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT "
-                         "NOT NULL, serialization_format TEXT NOT NULL, offered_qos_profiles TEXT "
-                         "NOT NULL)")
-        database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, "
-                         "timestamp INTEGER NOT NULL, data BLOB NOT NULL)")
+        database.execute(
+            "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+            "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)")
+        database.execute(
+            "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, "
+            "timestamp INTEGER NOT NULL, data BLOB NOT NULL)")
         topics = {}
         for topic, kind, t_ns, cdr in messages:
             if topic not in topics:

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Python adds to the engine, measured in one run; no absolute times of the engine.
 
-After an update of milliseconds the processor's caches hold nothing of Python, and whatever runs next
-is slow: numpy.zeros(3), too. So the cost of the call is measured with frames that the engine only
-stores, and what the caches add is measured beside it."""
+After an update of milliseconds the processor's caches hold nothing of Python, and whatever runs
+next is slow: numpy.zeros(3), too. So the cost of the call is measured with frames that the engine
+only stores, and what the caches add is measured beside it."""
 
 import statistics
 import time

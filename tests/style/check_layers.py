@@ -61,12 +61,13 @@ COMPONENT_LAYERS = {
         "report": {"vocabulary"},
     },
 }
-# Components that join the algorithms of others. The command may use all; offline has what the command
-# and the Python package do with files.
+# Components that join the algorithms of others. The command may use all; offline has what the
+# command and the Python package do with files.
 JOINS = {
     "offline": {"calibration", "force_estimation", "perception"},
-    "palpate": {"calibration", "capture", "diagnosis", "force_estimation", "motion_capture", "offline",
-                "perception", "player", "recorder", "view", "virtual_camera", "virtual_robot"},
+    "palpate": {"calibration", "capture", "diagnosis", "force_estimation", "motion_capture",
+                "offline", "perception", "player", "recorder", "view", "virtual_camera",
+                "virtual_robot"},
 }
 NOT_FOR_ALGORITHMS = {"app", "dds", "monitor"}
 # The Python module has algorithms and settings files, as the command palpate has.
