@@ -125,6 +125,7 @@ class Robot:
         displacement_m: Cables = None,
         tension_N: Cables = None,
         *,
+        air_m3: Cables = None,  # pumped into closed chambers, at ambient pressure; 0: at rest
         loads: Sequence[Load] = (),
         start: Equilibrium | None = None,
         cable_input: CableInput = "displacement",

@@ -149,7 +149,7 @@ TEST_F(ChamberWalls, RefuseAWallOfTwoChambersWithItsPlace) {
   - {name: upper, surface: {physical_group: upper wall}}
   - {name: again, surface: {inner_skin: 2}}
 )")),
-              testing::AllOf(HasSubstr("robot.yaml:10:"),
+              testing::AllOf(HasSubstr("robot.yaml:11:28:"),
                              HasSubstr("chamber 'again' has the wall of chamber 'upper', as at ("),
                              HasSubstr("a hollow is one chamber")));
 }
