@@ -6,7 +6,7 @@
 # programs and module have the same objects and give the same bits. Names are hidden outside of the
 # object, so that calls between functions of ours stay direct and cost programs nothing.
 set(PALPATE_MODULE_LIBRARIES core linalg app geometry fem robot rgbd correspondence experiment
-    calibration force_estimation)
+    recording calibration force_estimation perception offline)
 
 # palpate_add_library(NAME [LIBS lib...] [PUBLIC target...] [PRIVATE target...] [EXCLUDE regex...])
 # The sources of this folder and its subfolders as target palpate::NAME.

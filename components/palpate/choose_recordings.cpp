@@ -8,7 +8,6 @@
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
-#include "libs/fem/surface_patch.hpp"
 
 namespace palpate::command {
 
@@ -35,13 +34,6 @@ void RequireLoads(const Recording& recording) {
                    "is missing, and recording '" + recording.name +
                        "' is of kind known_load; write it with the header "
                        "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N, or change the kind in recording.yaml");
-}
-
-void RequireLoadsOnBody(const Recording& recording, const fem::PointLocator& places) {
-  for (const experiment::KnownLoad& load : recording.loads) {
-    experiment::RequireOnBody(
-        load, fem::MakeSurfacePatch(places, load.position_m, load.patch_radius_m).distance_m);
-  }
 }
 
 std::vector<const Recording*> ChooseRecordings(const experiment::Experiment& experiment,

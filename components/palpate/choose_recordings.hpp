@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "components/offline/forces/loads_on_body.hpp"
 #include "libs/experiment/experiment.hpp"
-#include "libs/fem/embedding.hpp"
 
 namespace palpate::command {
 
@@ -29,7 +29,6 @@ bool HasKnownLoads(const experiment::Recording& recording);
 /// soft body: InputError with the remedy.
 void RequireLoads(const experiment::Recording& recording);
 
-/// Refuses the first known load that lies off the body (experiment::RequireOnBody).
-void RequireLoadsOnBody(const experiment::Recording& recording, const fem::PointLocator& places);
+using offline::RequireLoadsOnBody;
 
 }  // namespace palpate::command

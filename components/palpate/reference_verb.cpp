@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "components/palpate/recordings/phase_plan.hpp"
+#include "components/offline/messages/phase_plan.hpp"
 #include "components/palpate/system/system_file_keys.hpp"
 #include "libs/app/key_reference.hpp"
 #include "libs/app/run_main.hpp"
@@ -40,7 +40,7 @@ constexpr std::array<FileKind, 8> kFileKinds{{{"robot", robot::RobotFileKeys},
                                               {"camera", rgbd::CameraFileKeys},
                                               {"calibration", robot::CalibrationFileKeys},
                                               {"scenario", scenario::ScenarioKeys},
-                                              {"phases", PhaseFileKeys},
+                                              {"phases", offline::PhaseFileKeys},
                                               {"system", SystemFileKeys}}};
 
 std::vector<std::string> KindNames() {

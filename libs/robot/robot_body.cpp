@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "libs/core/error.hpp"
@@ -265,12 +266,51 @@ void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator
   PlaceFeaturePoints(robot, locator, placer, body);
 }
 
+/// Corners of a wall's faces on the mesh, each sorted; empty of a wall that a file gives, whose
+/// vertices are not nodes.
+std::set<std::array<int, 3>> FacesOnNodes(const fem::MovingSurface& wall) {
+  std::set<std::array<int, 3>> faces;
+  for (const auto& face : wall.faces.colwise()) {
+    std::array<int, 3> corners{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const fem::InterpolationWeights& point = wall.points[At(face[ToIndex(k)])];
+      if (point.nodes.size() != 1) return {};
+      corners[k] = point.nodes.front();
+    }
+    std::sort(corners.begin(), corners.end());
+    faces.insert(corners);
+  }
+  return faces;
+}
+
+/// Refuses a chamber whose wall has a face of an earlier one: a face has one hollow on its free
+/// side, so both would be the same hollow, with two pressures. Hollows on both sides of a membrane
+/// have a wall each.
+void RequireWallOfItsOwn(const ChamberSettings& settings, const fem::MovingSurface& wall,
+                         const RobotBody& body) {
+  const std::set<std::array<int, 3>> own = FacesOnNodes(wall);
+  for (const BodyChamber& other : body.chambers) {
+    for (const std::array<int, 3>& face : FacesOnNodes(other.wall)) {
+      if (!own.contains(face)) continue;
+      const Eigen::Vector3d centre_mm = 1e3 * body.mesh.nodes_m(Eigen::all, face).rowwise().mean();
+      throw InputError(settings.surface_where,
+                       "chamber '" + settings.name + "' has the wall of chamber '" + other.name +
+                           "', as at (" + FormatNumber(std::round(1e2 * centre_mm.x()) / 1e2) +
+                           ", " + FormatNumber(std::round(1e2 * centre_mm.y()) / 1e2) + ", " +
+                           FormatNumber(std::round(1e2 * centre_mm.z()) / 1e2) +
+                           ") mm; a hollow is one chamber, and hollows beside each other need a "
+                           "membrane with elements between them");
+    }
+  }
+}
+
 void PlaceChambers(const RobotDescription& robot, const fem::PointLocator& locator,
                    const std::vector<fem::NodeGroup>& groups, RobotBody* body) {
   const Eigen::VectorXd rest_m = body->mesh.nodes_m.reshaped();
   for (const ChamberSettings& settings : robot.chambers) {
     BodyChamber chamber{settings.name, ChamberWall(settings, robot.mesh, locator, groups), 0.0,
                         settings.dead_volume_m3, settings.max_pressure_Pa};
+    RequireWallOfItsOwn(settings, chamber.wall, *body);
     chamber.volume_m3 = fem::EnclosedVolume(chamber.wall).Volume_m3(rest_m);
     body->notes.push_back("chamber " + chamber.name + ": " +
                           std::to_string(chamber.wall.faces.cols()) + " faces around " +

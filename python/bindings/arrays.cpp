@@ -88,6 +88,20 @@ Eigen::Vector3d ReadVector3(const DoubleArray& values, const std::string& name) 
   return vector;
 }
 
+Eigen::Isometry3d ReadPose(const DoubleArray& matrix, const std::string& name) {
+  if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) {
+    throw InputError(name + " must have the shape (4, 4)");
+  }
+  const Eigen::Matrix4d T = Eigen::Map<const Eigen::Matrix4d>(matrix.data()).transpose();
+  const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
+  constexpr double kRounding = 1e-6;
+  const bool is_rotation = R.isUnitary(kRounding) && R.determinant() > 0.0;
+  if (!T.allFinite() || !is_rotation || T.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    throw InputError(name + " is no pose: it must have a rotation and the last row 0, 0, 0, 1");
+  }
+  return Eigen::Isometry3d(T);
+}
+
 Eigen::Matrix3Xd ReadPoints(const DoubleArray& points, const std::string& name) {
   if (points.ndim() != 2 || points.shape(1) != 3) {
     throw InputError(name + " must have the shape (n, 3)");

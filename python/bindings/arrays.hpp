@@ -7,6 +7,7 @@
 #include <pybind11/pybind11.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ pybind11::array CopyOfPoints(const Eigen::Matrix3Xd& points);
 
 /// Three finite numbers. Throws InputError, which names `name`.
 Eigen::Vector3d ReadVector3(const DoubleArray& values, const std::string& name);
+/// A pose of a 4 x 4 array, whose rotation may be off by rounding. Throws InputError for what is
+/// none.
+Eigen::Isometry3d ReadPose(const DoubleArray& matrix, const std::string& name);
 /// [3 x n] of an array [n x 3], NaN where it has them. Throws InputError for another shape.
 Eigen::Matrix3Xd ReadPoints(const DoubleArray& points, const std::string& name);
 /// Throws InputError unless it is finite.

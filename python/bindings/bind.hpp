@@ -11,6 +11,9 @@ namespace palpate::python {
 void BindCompliance(pybind11::module_& module);
 void BindSensitivity(pybind11::module_& module);
 void BindExperiment(pybind11::module_& module);
+void BindForceEstimate(pybind11::module_& module);
+void BindImageEstimator(pybind11::module_& module);
+void BindReplay(pybind11::module_& module);
 void BindEstimation(pybind11::module_& module);
 void BindCalibration(pybind11::module_& module);
 

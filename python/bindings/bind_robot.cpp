@@ -134,14 +134,14 @@ void BindModel(RobotClass& bound) {
       .def(
           "solve",
           [](const RobotPtr& robot, CableValues displacement_m, CableValues tension_N,
-             std::vector<Load> loads, std::shared_ptr<Equilibrium> start,
+             CableValues air_m3, std::vector<Load> loads, std::shared_ptr<Equilibrium> start,
              const std::string& cable_input) {
-            return Solve(robot, {std::move(displacement_m), std::move(tension_N), std::move(loads),
-                                 std::move(start), ReadCableInput(cable_input)});
+            return Solve(robot, {std::move(displacement_m), std::move(tension_N), std::move(air_m3),
+                                 std::move(loads), std::move(start), ReadCableInput(cable_input)});
           },
           py::arg("displacement_m") = py::none(), py::arg("tension_N") = py::none(), py::kw_only(),
-          py::arg("loads") = std::vector<Load>(), py::arg("start") = py::none(),
-          py::arg("cable_input") = "displacement");
+          py::arg("air_m3") = py::none(), py::arg("loads") = std::vector<Load>(),
+          py::arg("start") = py::none(), py::arg("cable_input") = "displacement");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <future>
@@ -26,6 +27,7 @@
 #include "libs/robot/calibration_file.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bind.hpp"
+#include "python/bindings/callback.hpp"
 #include "python/bindings/errors.hpp"
 #include "python/bindings/experiment.hpp"
 #include "python/bindings/interrupts.hpp"
@@ -93,14 +95,20 @@ JointRequest RequestFor(const Robot& robot, const robot::RobotModel& model, cons
   return request;
 }
 
-/// Runs work(stop token) on a thread of its own, and ends it for Ctrl-C. Without the GIL.
+/// Runs work(stop token, count of iterations) on a thread of its own, tells progress(count), and
+/// ends it for Ctrl-C and where progress has failed. Without the GIL.
 template <typename Work>
-auto RunInterruptibly(const Work& work, Interrupts* interrupts) {
+auto RunInterruptibly(const Work& work, Interrupts* interrupts, Callback* progress) {
   std::stop_source stop;
-  auto running = std::async(std::launch::async, [&] { return work(stop.get_token()); });
-  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    if (interrupts->Requested()) stop.request_stop();
-  }
+  std::atomic<int> iterations = 0;
+  int told = -1;
+  auto running =
+      std::async(std::launch::async, [&] { return work(stop.get_token(), &iterations); });
+  do {
+    if (interrupts->Requested() || progress->failed()) stop.request_stop();
+    const int done = iterations;
+    if (done != told) (*progress)(told = done);
+  } while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready);
   return running.get();
 }
 
@@ -125,7 +133,7 @@ robot::CalibrationFile FileOf(const JointCalibration& fit, const robot::RobotMod
 
 std::shared_ptr<Calibration> Calibrate(const RobotPtr& robot,
                                        const std::vector<RecordingPtr>& recordings,
-                                       const Wanted& wanted) {
+                                       const Wanted& wanted, Callback* progress) {
   const auto data = DataOf(recordings);
   const experiment::Experiment& experiment = recordings.front()->experiment();
   force_estimation::CheckMarkerLabels(experiment,
@@ -143,15 +151,18 @@ std::shared_ptr<Calibration> Calibrate(const RobotPtr& robot,
   {
     const py::gil_scoped_release released;
     found->fit = RunInterruptibly(
-        [&](const std::stop_token& stop) {
+        [&](const std::stop_token& stop, std::atomic<int>* iterations) {
           request.stop = stop;
+          request.iterations = iterations;
           return calibration::CalibrateFrames(*model, frames, nullptr, request);
         },
-        &interrupts);
+        &interrupts, progress);
   }
   interrupts.Raise();
+  progress->Raise();
   const py::gil_scoped_release released;
   request.stop = {};
+  request.iterations = nullptr;
   RequirePossible(*model, frames, request, found->fit);
   found->file = FileOf(found->fit, *model, data, experiment.folder);
   return found;
@@ -204,21 +215,25 @@ void BindCalibration(py::module_& module) {
       "calibrate",
       [](const RobotPtr& robot, const std::vector<RecordingPtr>& recordings,
          std::vector<std::string> parts, bool actuator_offsets, bool actuator_gains,
-         double marker_bias_m, const std::string& cable_input, int threads) {
+         double marker_bias_m, const std::string& cable_input, int threads,
+         const py::object& progress) {
         if (!(marker_bias_m >= 0.0)) throw InputError("marker_bias_m must be at least 0");
         if (threads < 1 || threads > 64) throw InputError("threads: 1 to 64 are allowed");
+        Callback on_progress(progress);
         return Calibrate(robot, recordings,
                          {.parts = std::move(parts),
                           .actuator_offsets = actuator_offsets,
                           .actuator_gains = actuator_gains,
                           .marker_bias_m = marker_bias_m,
                           .preferred = ReadCableInput(cable_input),
-                          .threads = threads});
+                          .threads = threads},
+                         &on_progress);
       },
       py::arg("robot"), py::arg("recordings"), py::kw_only(),
       py::arg("parts") = std::vector<std::string>(), py::arg("actuator_offsets") = true,
       py::arg("actuator_gains") = false, py::arg("marker_bias_m") = 0.0,
-      py::arg("cable_input") = "displacement", py::arg("threads") = 2);
+      py::arg("cable_input") = "displacement", py::arg("threads") = 2,
+      py::arg("progress") = py::none());
 }
 
 }  // namespace palpate::python

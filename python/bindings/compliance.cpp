@@ -47,6 +47,7 @@ std::vector<robot::ForceDirection> DirectionsOf(const std::vector<Patch>& patche
 std::shared_ptr<ComplianceMatrices> ComputeCompliance(const Equilibrium& equilibrium,
                                                       const std::vector<Patch>& observed,
                                                       const std::vector<Patch>& loaded) {
+  RequireNoGas(equilibrium);
   Robot& robot = *equilibrium.robot;
   RequirePatchesOf(robot, observed);
   RequirePatchesOf(robot, loaded);

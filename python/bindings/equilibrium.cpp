@@ -9,6 +9,7 @@
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
+#include "libs/robot/solve_with_gas.hpp"
 #include "python/bindings/errors.hpp"
 #include "python/bindings/interrupts.hpp"
 
@@ -50,6 +51,22 @@ void ReadOff(const robot::RobotModel& model, Equilibrium* found) {
     const auto& point = markers[static_cast<std::size_t>(m)].point;
     found->markers_m.col(m) = point.weights.Position(found->state.x_m);
   }
+}
+
+std::vector<robot::ChamberGas> GasOf(const Robot& robot, const SolveRequest& request,
+                                     const std::vector<robot::ActuatorCommand>& commands) {
+  const auto air_m3 = robot.ReadCables(request.air_m3, "air_m3");
+  std::vector<robot::ChamberGas> gas;
+  for (std::size_t a = 0; a < air_m3.size(); ++a) {
+    if (!air_m3[a]) continue;
+    const robot::ActuatorTraits& traits = robot.traits(a);
+    if (!traits.IsChamber()) throw InputError("air_m3: " + traits.Title() + " is no chamber");
+    if (commands[a].kind != robot::ActuatorCommand::Kind::kNone) {
+      throw InputError("air_m3: " + traits.Title() + " has a pressure or volume, too; give one");
+    }
+    gas.push_back({.actuator = static_cast<int>(a), .air_m3 = *air_m3[a]});
+  }
+  return gas;
 }
 
 py::array PositionOf(const Equilibrium& equilibrium, const Patch& patch) {
@@ -99,12 +116,16 @@ std::shared_ptr<Equilibrium> Solve(const std::shared_ptr<Robot>& robot,
   std::vector<robot::DeadLoad> loads;
   for (const Load& load : request.loads)
     loads.push_back({load.patch.surface.weights, load.force_N});
+  const std::vector<robot::ChamberGas> gas = GasOf(*robot, request, found->commands);
+  found->has_gas = !gas.empty();
   Interrupts interrupts;
   robot->Use([&](robot::RobotModel& model) {
     const std::int64_t start_ns = MonotonicNow_ns();
     const WatchedSolver watched(model, interrupts);
     found->state = request.start ? request.start->state : model.RestState();
-    found->result = model.Solve(found->commands, loads, &found->state);
+    found->result = gas.empty()
+                        ? model.Solve(found->commands, loads, &found->state)
+                        : robot::SolveWithGas(model, found->commands, gas, loads, &found->state);
     ReadOff(model, found.get());
     found->time_s = NsToSeconds(MonotonicNow_ns() - start_ns);
   });
@@ -112,6 +133,14 @@ std::shared_ptr<Equilibrium> Solve(const std::shared_ptr<Robot>& robot,
   const fem::StaticResult& result = found->result;
   if (!result.status.ok()) throw SolveFailure(result.status, result.load_fraction);
   return found;
+}
+
+void RequireNoGas(const Equilibrium& equilibrium) {
+  if (!equilibrium.has_gas) return;
+  throw InputError(
+      "the equilibrium has a chamber of given air, and its derivatives are not known; solve for "
+      "its "
+      "pressure or its volume");
 }
 
 void BindEquilibrium(py::module_& module) {

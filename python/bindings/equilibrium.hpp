@@ -20,6 +20,7 @@ namespace palpate::python {
 struct Equilibrium {
   std::shared_ptr<Robot> robot;
   std::vector<robot::ActuatorCommand> commands;
+  bool has_gas = false;  ///< in a chamber, so that `commands` do not hold for its derivatives
   fem::StaticState state;
   fem::StaticResult result;
   double time_s = 0.0;  ///< in C++, without the waiting for another thread
@@ -31,6 +32,7 @@ struct Equilibrium {
 struct SolveRequest {
   CableValues displacement_m;
   CableValues tension_N;
+  CableValues air_m3;  ///< pumped into closed chambers (robot::GasLaw)
   std::vector<Load> loads;
   std::shared_ptr<Equilibrium> start;  ///< null: the body at rest, without loads
   robot::CableInput preferred = robot::CableInput::kDisplacement;
@@ -39,6 +41,10 @@ struct SolveRequest {
 /// Solves for the equilibrium. Throws InputError, SolveFailure, and what Ctrl-C raises.
 std::shared_ptr<Equilibrium> Solve(const std::shared_ptr<Robot>& robot,
                                    const SolveRequest& request);
+
+/// Throws InputError for an equilibrium with a chamber of given gas, whose derivatives are not
+/// known.
+void RequireNoGas(const Equilibrium& equilibrium);
 
 /// Throws InputError unless the equilibrium is of this robot.
 void RequireEquilibriumOf(const Robot& robot, const Equilibrium& equilibrium);

@@ -16,6 +16,7 @@
 #include "components/force_estimation/pipeline/marker_pipeline.hpp"
 #include "components/force_estimation/recording_frames.hpp"
 #include "components/force_estimation/shape/known_contacts.hpp"
+#include "components/offline/forces/force_replay.hpp"
 #include "libs/app/settings.hpp"
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
@@ -24,6 +25,7 @@
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bind.hpp"
 #include "python/bindings/experiment.hpp"
+#include "python/bindings/force_estimate.hpp"
 #include "python/bindings/keywords.hpp"
 #include "python/bindings/robot.hpp"
 
@@ -33,18 +35,9 @@ namespace palpate::python {
 
 namespace {
 
-using force_estimation::ContactForce;
 using force_estimation::ForceEstimate;
 using force_estimation::MarkerFrame;
 using RobotPtr = std::shared_ptr<Robot>;
-
-/// The forces of one frame, as Python keeps them.
-struct Estimate {
-  ForceEstimate forces;
-  Eigen::VectorXd tension_N, displacement_m;  ///< [cables]
-  double time_s = 0.0;                        ///< in C++
-};
-using EstimatePtr = std::shared_ptr<Estimate>;
 
 force_estimation::Config ReadConfig(const py::kwargs& settings) {
   force_estimation::Config config;
@@ -102,21 +95,9 @@ class MarkerEstimator {
   EstimatePtr Update(MarkerFrame frame) {
     const py::gil_scoped_release released;
     const std::lock_guard alone(mutex_);
-    auto estimate = std::make_shared<Estimate>();
     const std::int64_t start_ns = MonotonicNow_ns();
     const ForceEstimate& forces = pipeline_->Update(std::move(frame)).estimate;
-    estimate->time_s = NsToSeconds(MonotonicNow_ns() - start_ns);
-    estimate->forces = forces;
-    const Eigen::Index cables = ToIndex(forces.cables.size());
-    estimate->tension_N.resize(cables);
-    estimate->displacement_m.resize(cables);
-    for (Eigen::Index c = 0; c < cables; ++c) {
-      const robot::ActuatorTraits& traits = robot_->traits(At(c));
-      estimate->tension_N[c] = traits.ReportedForce(forces.cables[At(c)].tension_N);
-      estimate->displacement_m[c] =
-          traits.ReportedDisplacement(forces.cables[At(c)].displacement_m);
-    }
-    return estimate;
+    return KeepEstimate(forces, *robot_, NsToSeconds(MonotonicNow_ns() - start_ns));
   }
 
  private:
@@ -149,11 +130,7 @@ class MarkerEstimator {
 std::vector<MarkerFrame> FramesOf(const Recording& recording, const RobotPtr& robot,
                                   const std::string& cable_input) {
   experiment::Experiment experiment = recording.experiment();
-  if (const auto& pose = robot->calibration().pose) {
-    experiment.T_robot_camera = pose->T_robot_camera;
-    experiment.T_robot_camera_error = {.translation_m = pose->translation_error_m.maxCoeff(),
-                                       .rotation_rad = pose->rotation_error_rad.maxCoeff()};
-  }
+  offline::TakePoses(robot->calibration(), &experiment);
   const robot::CableInput preferred = ReadCableInput(cable_input);
   return robot->Use([&](const robot::RobotModel& model) {
     auto frames =
@@ -165,77 +142,9 @@ std::vector<MarkerFrame> FramesOf(const Recording& recording, const RobotPtr& ro
   });
 }
 
-void BindContact(py::module_& module) {
-  py::class_<ContactForce>(module, "ContactForce", "The force of one contact.")
-      .def_readonly("name", &ContactForce::name)
-      .def_property_readonly(
-          "status",
-          [](const ContactForce& contact) { return std::string(ToString(contact.status.code())); })
-      .def_property_readonly("position_m",
-                             [](const ContactForce& one) { return CopyOfVector(one.position_m); })
-      .def_property_readonly("force_N",
-                             [](const ContactForce& one) { return CopyOfVector(one.force_N); })
-      .def_property_readonly(
-          "covariance_N2",
-          [](const ContactForce& one) { return CopyOfPoints(one.covariance_N2.transpose()); })
-      .def_readonly("ci95_N", &ContactForce::ci95_N)
-      .def_readonly("location_ci95_m", &ContactForce::location_ci95_m);
-}
-
-using BoundEstimate = py::class_<Estimate, EstimatePtr>;
-
-void BindNumber(BoundEstimate& bound, const char* name, double ForceEstimate::*number) {
-  bound.def_property_readonly(name, [number](const Estimate& one) { return one.forces.*number; });
-}
-
-void BindNumber(BoundEstimate& bound, const char* name, int ForceEstimate::*number) {
-  bound.def_property_readonly(name, [number](const Estimate& one) { return one.forces.*number; });
-}
-
-void BindEstimate(py::module_& module) {
-  BoundEstimate bound(module, "ForceEstimate", "The forces of one frame.");
-  bound
-      .def_property_readonly(
-          "status",
-          [](const Estimate& one) { return std::string(ToString(one.forces.status.code())); })
-      .def_property_readonly("message",
-                             [](const Estimate& one) { return one.forces.status.message(); })
-      .def_property_readonly(
-          "usable",
-          [](const Estimate& one) { return force_estimation::IsUsable(one.forces.status); })
-      .def_property_readonly("contacts", [](const Estimate& one) { return one.forces.contacts; })
-      .def_property_readonly("positions_m",
-                             [](const py::object& self) {
-                               return ViewOfPoints(self.cast<const Estimate&>().forces.x_m, self);
-                             })
-      .def_property_readonly("marker_residual_m",
-                             [](const py::object& self) {
-                               const auto& forces = self.cast<const Estimate&>().forces;
-                               return ViewOfPoints(forces.marker_residual_m, self);
-                             })
-      .def_property_readonly("tension_N",
-                             [](const py::object& self) {
-                               return ViewOfVector(self.cast<const Estimate&>().tension_N, self);
-                             })
-      .def_property_readonly("displacement_m",
-                             [](const py::object& self) {
-                               return ViewOfVector(self.cast<const Estimate&>().displacement_m,
-                                                   self);
-                             })
-      .def_readonly("time_s", &Estimate::time_s);
-  BindNumber(bound, "t_s", &ForceEstimate::t_s);
-  BindNumber(bound, "residual_rms_m", &ForceEstimate::residual_rms_m);
-  BindNumber(bound, "noise_rms_m", &ForceEstimate::noise_rms_m);
-  BindNumber(bound, "chi_squared", &ForceEstimate::chi_squared);
-  BindNumber(bound, "degrees_of_freedom", &ForceEstimate::degrees_of_freedom);
-  BindNumber(bound, "iterations", &ForceEstimate::iterations);
-}
-
 }  // namespace
 
 void BindEstimation(py::module_& module) {
-  BindContact(module);
-  BindEstimate(module);
   py::class_<MarkerFrame>(module, "MarkerFrame", "What was measured at one time.")
       .def_readonly("t_s", &MarkerFrame::t_s)
       .def_property_readonly("is_reference", [](const MarkerFrame& frame) {

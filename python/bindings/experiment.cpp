@@ -5,13 +5,20 @@
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <system_error>
 #include <utility>
+#include <variant>
 
+#include "components/offline/messages/temporary_experiment.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
@@ -32,19 +39,80 @@ using RecordingPtr = std::shared_ptr<Recording>;
 /// An experiment with its recordings, each made once.
 struct OpenExperiment {
   ExperimentPtr data;
+  std::vector<std::string> messages;  ///< what was made of recorded messages
   std::vector<RecordingPtr> recordings;
 };
 
-OpenExperiment Open(const std::string& folder) {
-  const py::gil_scoped_release released;
-  if (std::filesystem::is_regular_file(folder)) {
-    throw InputError(folder +
-                     ": is a file and no experiment folder; of recorded messages, palpate export "
-                     "FILE --experiment FOLDER makes one");
+ExperimentPtr ReadFolder(const std::string& folder, const std::vector<std::string>& remap) {
+  if (!remap.empty()) {
+    throw InputError({folder}, "holds no recorded messages, so that remap means nothing");
   }
-  OpenExperiment open;
-  open.data = std::make_shared<const experiment::Experiment>(
+  return std::make_shared<const experiment::Experiment>(
       experiment::ReadExperiment(folder, app::LoadYaml));
+}
+
+/// Temporary folders that are still there: the end of the process that made them removes them, not
+/// that of a forked one.
+class TemporaryFolders {
+ public:
+  ~TemporaryFolders() {
+    if (getpid() != process_) return;
+    std::error_code ignored;
+    for (const auto& folder : folders_) std::filesystem::remove_all(folder, ignored);
+  }
+  void Add(const std::filesystem::path& folder) {
+    const std::lock_guard alone(mutex_);
+    folders_.insert(folder);
+  }
+  void Remove(const std::filesystem::path& folder) {
+    const std::lock_guard alone(mutex_);
+    folders_.erase(folder);
+  }
+
+ private:
+  const pid_t process_ = getpid();
+  std::mutex mutex_;
+  std::set<std::filesystem::path> folders_;
+};
+
+TemporaryFolders& Folders() {
+  static TemporaryFolders folders;
+  return folders;
+}
+
+/// The experiment and the temporary folder that it is in end together.
+struct HeldExperiment {
+  HeldExperiment(const std::string& data, const std::vector<std::string>& remap)
+      : folder(data, remap, app::LoadYaml, [this](const std::filesystem::path& made) {
+          if (made.empty()) {
+            Folders().Remove(temporary);
+          } else {
+            Folders().Add(temporary = made);
+          }
+        }) {}
+
+  std::filesystem::path temporary;
+  offline::TemporaryExperiment folder;
+  experiment::Experiment read;
+};
+
+ExperimentPtr ReadMessages(const std::string& data, const std::vector<std::string>& remap,
+                           std::vector<std::string>* notes) {
+  const auto held = std::make_shared<HeldExperiment>(data, remap);
+  *notes = held->folder.notes();
+  try {
+    held->read = experiment::ReadExperiment(held->folder.path(), app::LoadYaml);
+  } catch (const InputError& error) {
+    throw InputError(held->folder.Named(error.what()));
+  }
+  return {held, &held->read};
+}
+
+OpenExperiment Open(const std::string& data, const std::vector<std::string>& remap) {
+  const py::gil_scoped_release released;
+  OpenExperiment open;
+  open.data = offline::HoldsMessages(data) ? ReadMessages(data, remap, &open.messages)
+                                           : ReadFolder(data, remap);
   for (std::size_t k = 0; k < open.data->recordings.size(); ++k) {
     open.recordings.push_back(std::make_shared<Recording>(open.data, k));
   }
@@ -100,6 +168,13 @@ std::vector<std::pair<double, std::string>> Files(
   return listed;
 }
 
+/// [4 x 4] of the first camera, or None where it is not known.
+py::object CameraPose(const Recording& recording) {
+  const auto pose = experiment::RobotFromCamera(recording.experiment(), recording.data());
+  if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return py::none();
+  return CopyOfMatrix(std::get<Eigen::Isometry3d>(pose).matrix());
+}
+
 void BindLoads(py::module_& module) {
   using experiment::KnownLoad;
   py::class_<KnownLoad>(module, "KnownLoad", "A known external load of a recording.")
@@ -122,6 +197,7 @@ void BindRecording(py::module_& module) {
                              [](const Recording& one) {
                                return ToString(experiment::FrameOf(one.experiment(), one.data()));
                              })
+      .def_property_readonly("T_robot_camera", &CameraPose)
       .def_property_readonly("notes", [](const Recording& one) { return one.data().notes; })
       .def_property_readonly("steady_window_s", &SteadyWindow)
       .def_property_readonly("marker_names", &MarkerNames)
@@ -186,7 +262,8 @@ void BindExperiment(py::module_& module) {
   BindLoads(module);
   BindRecording(module);
   py::class_<OpenExperiment>(module, "Experiment", "A folder of measured data.")
-      .def(py::init(&Open), py::arg("folder"))
+      .def(py::init(&Open), py::arg("data"), py::kw_only(),
+           py::arg("remap") = std::vector<std::string>())
       .def_property_readonly("folder",
                              [](const OpenExperiment& open) { return open.data->folder.string(); })
       .def_property_readonly("robot",
@@ -196,8 +273,8 @@ void BindExperiment(py::module_& module) {
                                return file;
                              })
       .def_property_readonly("notes", [](const OpenExperiment& open) { return open.data->notes; })
-      .def_property_readonly("recordings",
-                             [](const OpenExperiment& open) { return open.recordings; })
+      .def_readonly("messages", &OpenExperiment::messages)
+      .def_readonly("recordings", &OpenExperiment::recordings)
       .def("recording", &FindRecording, py::arg("name"));
 }
 

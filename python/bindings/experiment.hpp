@@ -21,6 +21,7 @@ class Recording {
   Recording(std::shared_ptr<const experiment::Experiment> experiment, std::size_t index);
 
   const experiment::Experiment& experiment() const { return *experiment_; }
+  std::size_t index() const { return index_; }  ///< in its experiment
   const experiment::Recording& data() const { return experiment_->recordings[index_]; }
 
   const Eigen::VectorXd& marker_t_s() const { return marker_t_s_; }  ///< [frames]

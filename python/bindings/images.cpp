@@ -23,6 +23,7 @@
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bind.hpp"
 #include "python/bindings/experiment.hpp"
+#include "python/bindings/keywords.hpp"
 
 namespace py = pybind11;
 
@@ -106,6 +107,8 @@ py::array CloudPoints_m(const Recording& recording, py::ssize_t frame) {
   return CopyOfPoints(cloud.points_m);
 }
 
+RgbdCamera ReadCamera(const std::string& file) { return rgbd::ReadCameraFile(file, app::LoadYaml); }
+
 Eigen::Matrix3d MatrixOf(const CameraModel& camera) {
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
   K(0, 0) = camera.fx_px;
@@ -127,6 +130,9 @@ void BindCameras(py::module_& module) {
             numbers.data(), static_cast<Eigen::Index>(numbers.size())));
       });
   py::class_<RgbdCamera>(module, "Camera", "A depth camera and the colour camera beside it.")
+      .def(
+          py::init([](const py::kwargs& keys) { return rgbd::ReadCamera(TreeOf(keys, "Camera")); }))
+      .def_static("read", &ReadCamera, py::arg("file"))
       .def_readonly("depth", &RgbdCamera::depth)
       .def_property_readonly("color",
                              [](const RgbdCamera& camera) {

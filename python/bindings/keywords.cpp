@@ -24,6 +24,14 @@ ConfigNode NodeOf(py::handle value, const std::string& path, const SourceLocatio
     }
     return node;
   }
+  if (py::isinstance<py::dict>(value)) {
+    node.kind = ConfigNode::Kind::kMap;
+    for (const auto& [key, item] : py::reinterpret_borrow<py::dict>(value)) {
+      const auto word = key.cast<std::string>();
+      node.entries.push_back({word, NodeOf(item, path + "." + word, where)});
+    }
+    return node;
+  }
   node.kind = ConfigNode::Kind::kScalar;
   node.quoted = py::isinstance<py::str>(value);
   if (py::isinstance<py::bool_>(value)) {

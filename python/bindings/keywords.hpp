@@ -13,7 +13,7 @@ namespace palpate::python {
 
 /// Keyword arguments as a settings tree, so that they are checked by the rules, and refused in the
 /// words, of settings files. `name` takes the place of the file in messages. Values are bool, int,
-/// float, str, or lists of these.
+/// float, str, and lists and dicts of these.
 ConfigNode TreeOf(const pybind11::kwargs& keywords, const std::string& name);
 
 }  // namespace palpate::python

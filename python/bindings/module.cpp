@@ -21,6 +21,9 @@ PYBIND11_MODULE(_engine, module) {
   palpate::python::BindCompliance(module);
   palpate::python::BindSensitivity(module);
   palpate::python::BindExperiment(module);
+  palpate::python::BindForceEstimate(module);
   palpate::python::BindEstimation(module);
+  palpate::python::BindImageEstimator(module);
+  palpate::python::BindReplay(module);
   palpate::python::BindCalibration(module);
 }

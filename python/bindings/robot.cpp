@@ -30,7 +30,7 @@ double ReadValue(py::handle value, const std::string& name) {
 
 Robot::Robot(const std::string& robot, const std::string& calibration,
              const fem::SolverSettings& solver)
-    : file_(app::FindRobotFile(robot).string()), solver_(solver) {
+    : file_(app::FindRobotFile(robot).string()), calibration_name_(calibration), solver_(solver) {
   robot::RobotBody body = robot::BuildRobotBody(robot::ReadRobotFile(file_, app::LoadYaml));
   if (!calibration.empty()) {
     calibration_ = robot::ReadCalibrationFile(calibration, app::LoadYaml);

@@ -36,6 +36,8 @@ class Robot {
   const robot::RobotBody& body() const { return model_->body(); }
   const std::string& file() const { return file_; }
   const robot::CalibrationFile& calibration() const { return calibration_; }
+  /// Of its file; empty: none was given.
+  const std::string& calibration_name() const { return calibration_name_; }
   /// Of cables, then of chambers.
   const std::vector<std::string>& cable_names() const { return cable_names_; }
   const robot::ActuatorTraits& traits(std::size_t actuator) const {
@@ -68,6 +70,7 @@ class Robot {
 
  private:
   std::string file_;
+  std::string calibration_name_;
   robot::CalibrationFile calibration_;
   fem::SolverSettings solver_;
   std::unique_ptr<robot::RobotModel> model_;

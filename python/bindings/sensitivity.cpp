@@ -160,6 +160,7 @@ void ReadOff(const robot::SensitivitySolver& solver,
 std::shared_ptr<Sensitivity> ComputeSensitivity(const Equilibrium& equilibrium,
                                                 const std::vector<Parameter>& parameters,
                                                 const std::vector<Patch>& observed) {
+  RequireNoGas(equilibrium);
   Robot& robot = *equilibrium.robot;
   RequirePatchesOf(robot, observed);
   std::vector<robot::ParameterPtr> made;

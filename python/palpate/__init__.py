@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-"""Finite-element models of soft robots, and forces on them from measured markers.
+"""Finite-element models of soft robots, and forces on them from measured markers and images.
 
 SI units, robot frame; names end in their unit. Points are arrays of shape (n, 3). Arrays that an
 object hands out are read-only views of its memory.
@@ -16,6 +16,7 @@ from palpate._engine import (
     Experiment,
     FittedValue,
     ForceEstimate,
+    ImageEstimator,
     InputError,
     KnownLoad,
     Load,
@@ -24,6 +25,7 @@ from palpate._engine import (
     Parameter,
     Patch,
     Recording,
+    RecordingForces,
     Robot,
     RunError,
     Sensitivity,
@@ -31,6 +33,7 @@ from palpate._engine import (
     __version__,
     calibrate,
     compliance,
+    estimate,
     marker_frames,
     sensitivity,
 )
@@ -45,6 +48,7 @@ __all__ = [
     "Experiment",
     "FittedValue",
     "ForceEstimate",
+    "ImageEstimator",
     "InputError",
     "KnownLoad",
     "Load",
@@ -53,6 +57,7 @@ __all__ = [
     "Parameter",
     "Patch",
     "Recording",
+    "RecordingForces",
     "Robot",
     "RunError",
     "Sensitivity",
@@ -60,6 +65,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "compliance",
+    "estimate",
     "marker_frames",
     "sensitivity",
 ]

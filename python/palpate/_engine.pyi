@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
 # Types of the module in C++. tests/python/stub_test.py compares names and arguments with it.
-from collections.abc import Mapping, Sequence
-from typing import Literal
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,7 @@ Ints = NDArray[np.int32]
 # By name, or one number for each cable in the robot's order, NaN where nothing is known.
 Cables = Mapping[str, float] | ArrayLike | None
 CableInput = Literal["displacement", "tension"]
+Setting = bool | int | float | str | Sequence[str] | Mapping[str, Any]
 
 class InputError(ValueError):
     """Bad settings, files or data; begins with file:line:column where there is a file."""
@@ -124,6 +125,7 @@ class Robot:
         displacement_m: Cables = None,
         tension_N: Cables = None,
         *,
+        air_m3: Cables = None,  # pumped into closed chambers, at ambient pressure; 0: at rest
         loads: Sequence[Load] = (),
         start: Equilibrium | None = None,
         cable_input: CableInput = "displacement",
@@ -219,8 +221,12 @@ class CameraModel:
     def distortion(self) -> Floats: ...  # [5] or [8], in OpenCV's order
 
 class Camera:
-    """A depth camera and the colour camera beside it."""
+    """A depth camera and the colour camera beside it. `keys`: `depth` and `color`, dicts with the
+    keys of camera.yaml."""
 
+    def __init__(self, **keys: dict[str, Any]) -> None: ...
+    @staticmethod
+    def read(file: str) -> Camera: ...
     @property
     def depth(self) -> CameraModel: ...
     @property
@@ -245,6 +251,8 @@ class Recording:
     def kind(self) -> str: ...
     @property
     def frame(self) -> str: ...  # "robot" | "camera": of the markers
+    @property
+    def T_robot_camera(self) -> Floats | None: ...  # [4, 4] of its camera; None: not known
     @property
     def notes(self) -> str: ...
     @property
@@ -278,11 +286,14 @@ class Recording:
     def cloud_m(self, frame: int) -> Floats: ...  # [points, 3] camera frame; NaN: nothing seen
 
 class Experiment:
-    """A folder of measured data."""
+    """Measured data: a folder, or recorded messages (MCAP, .db3 of rosbag2, or a folder of them),
+    which are made into a temporary experiment. `remap`: "FROM:=TO", as --remap of the programs."""
 
-    def __init__(self, folder: str) -> None: ...
+    def __init__(self, data: str, *, remap: Sequence[str] = ()) -> None: ...
     @property
-    def folder(self) -> str: ...
+    def folder(self) -> str: ...  # that of messages ends with the experiment and its recordings
+    @property
+    def messages(self) -> list[str]: ...  # what was made of recorded messages
     @property
     def robot(self) -> str | None: ...  # the robot file that it names
     @property
@@ -363,7 +374,7 @@ class MarkerEstimator:
         self,
         robot: Robot,
         recording: Recording | None = None,
-        **settings: bool | int | float | str | Sequence[str],
+        **settings: Setting,
     ) -> None: ...
     @property
     def robot(self) -> Robot: ...
@@ -379,6 +390,69 @@ class MarkerEstimator:
         cable_input: CableInput = "displacement",
     ) -> MarkerFrame: ...
     def update(self, frame: MarkerFrame) -> ForceEstimate: ...
+
+class ImageEstimator:
+    """Forces from the images of one camera, frame by frame, with a model of its own, as
+    palpate-perception and palpate-force-estimation find them. `recording`: gives the pose of its
+    camera and base, its known loads, and cable inputs where update has none. `settings`: the keys
+    of palpate-force-estimation, and dicts `shape` and `perception`."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        camera: Camera,
+        T_robot_camera: ArrayLike | None = None,  # [4, 4]; None: the calibration's or recording's
+        recording: Recording | None = None,
+        *,
+        bias_frames: Literal["first", "none"] = "first",  # frames that count as contact-free
+        **settings: Setting,
+    ) -> None: ...
+    @property
+    def robot(self) -> Robot: ...
+    def expect_posture(
+        self,
+        t_s: float = 0.0,
+        displacement_m: Cables = None,
+        tension_N: Cables = None,
+        *,
+        cable_input: CableInput = "displacement",
+    ) -> None: ...  # where the next frame shows the robot: its equilibrium under these inputs
+    def update(
+        self,
+        t_s: float,
+        depth_steps: NDArray[np.uint16],  # [height, width] in steps of the camera; copied once
+        color: NDArray[np.uint8] | None = None,  # [height, width, 3] RGB
+        displacement_m: Cables = None,
+        tension_N: Cables = None,
+        *,
+        contact_free: bool = False,  # the frame counts for the depth bias
+        cable_input: CableInput = "displacement",
+    ) -> ForceEstimate: ...
+
+class RecordingForces:
+    """The forces of a recording."""
+
+    @property
+    def recording(self) -> Recording: ...
+    @property
+    def measurement(self) -> str: ...  # "shape" | "markers"
+    @property
+    def frames(self) -> list[ForceEstimate]: ...
+    @property
+    def failure(self) -> str | None: ...  # a recording at rest that has forces: the reasons
+
+def estimate(
+    robot: Robot,
+    recordings: Sequence[Recording],  # of one experiment
+    *,
+    measurement: Literal["shape", "markers"] | None = None,  # None: shape where it has images
+    bias_frames: Literal["recordings", "first", "none"] = "recordings",
+    rate_Hz: float = 0.0,  # largest frame rate; 0: all frames
+    cable_input: CableInput = "displacement",
+    progress: Callable[[str, int, int], object] | None = None,  # what, frames done, of how many
+    note: Callable[[str], object] | None = None,  # what palpate estimate would print
+    **settings: Setting,
+) -> list[RecordingForces]: ...
 
 class FittedValue:
     """An estimated parameter."""
@@ -425,4 +499,5 @@ def calibrate(
     marker_bias_m: float = 0.0,
     cable_input: CableInput = "displacement",
     threads: int = 2,
+    progress: Callable[[int], object] | None = None,  # iterations done
 ) -> Calibration: ...

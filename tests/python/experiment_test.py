@@ -53,8 +53,8 @@ class MeasuredBeam(unittest.TestCase):
         with self.assertRaisesRegex(palpate.InputError, "did you mean 'hung_weight'"):
             self.experiment.recording("hung_weigth")
 
-    def test_of_a_file_it_says_how_a_folder_is_made(self):
-        with self.assertRaisesRegex(palpate.InputError, "palpate export FILE --experiment FOLDER"):
+    def test_a_file_without_messages_is_refused(self):
+        with self.assertRaisesRegex(palpate.InputError, "beam.yaml: is no folder"):
             palpate.Experiment(BEAM)
 
 

@@ -165,5 +165,35 @@ class LongCalls(unittest.TestCase):
             np.testing.assert_array_equal(one.positions_m, alone.positions_m)
 
 
+class Air(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.robot = palpate.Robot("pneumatic_finger")
+        cls.less = cls.robot.solve(air_m3={"bend": 0.4e-6})
+        cls.more = cls.robot.solve(air_m3={"bend": 0.8e-6}, start=cls.less)
+
+    def test_a_chamber_of_given_air_follows_boyle(self):
+        ambient_Pa = 101325.0
+        volumes_m3 = []
+        for air_m3, found in ((0.4e-6, self.less), (0.8e-6, self.more)):
+            pressure_Pa, change_m3 = found.tension_N[0], found.displacement_m[0]
+            self.assertGreater(pressure_Pa, 1e3)
+            # (p0 + p) (V + dV) = p0 (V + air): V of chamber and tube
+            volumes_m3.append((ambient_Pa * air_m3 - (ambient_Pa + pressure_Pa) * change_m3) /
+                              pressure_Pa)
+        np.testing.assert_allclose(volumes_m3[0], volumes_m3[1], rtol=1e-5)
+        self.assertGreater(volumes_m3[0], 1.6e-6)  # the tube's alone
+
+    def test_what_has_no_air_of_its_own_is_refused(self):
+        with self.assertRaisesRegex(palpate.InputError, "chamber bend has a pressure or volume"):
+            self.robot.solve(tension_N={"bend": 1e3}, air_m3={"bend": 1e-7})
+        with self.assertRaisesRegex(palpate.InputError, "cable north is no chamber"):
+            palpate.Robot(FOUR_LEG).solve(air_m3={"north": 1e-7})
+        with self.assertRaisesRegex(palpate.SolveError, "cannot lose 1 m3 of air"):
+            self.robot.solve(air_m3={"bend": -1.0})
+        with self.assertRaisesRegex(palpate.InputError, "derivatives are not known"):
+            palpate.compliance(self.less)
+
+
 if __name__ == "__main__":
     unittest.main()

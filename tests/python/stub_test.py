@@ -12,7 +12,7 @@ import palpate
 from palpate import _engine
 
 STUB = ast.parse(pathlib.Path(palpate.__file__).with_name("_engine.pyi").read_text("utf-8"))
-TYPES_ONLY = {"Floats", "Ints", "Cables", "CableInput"}
+TYPES_ONLY = {"Floats", "Ints", "Cables", "CableInput", "Setting"}
 
 
 def public(names):

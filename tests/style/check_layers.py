@@ -61,6 +61,14 @@ COMPONENT_LAYERS = {
         "report": {"vocabulary"},
     },
 }
+# Components that join the algorithms of others. The command may use all; offline has what the
+# command and the Python package do with files.
+JOINS = {
+    "offline": {"calibration", "force_estimation", "perception"},
+    "palpate": {"calibration", "capture", "diagnosis", "force_estimation", "motion_capture",
+                "offline", "perception", "player", "recorder", "view", "virtual_camera",
+                "virtual_robot"},
+}
 NOT_FOR_ALGORITHMS = {"app", "dds", "monitor"}
 # The Python module has algorithms and settings files, as the command palpate has.
 NOT_FOR_PYTHON = {"dds", "monitor"}
@@ -144,8 +152,9 @@ def check_component(source, target):
             return "python/ includes algorithms of components, neither nodes nor the command"
         return ""
     own = source.name == target.name
-    if not own and source.name != "palpate":
-        return "no component includes another (components/palpate excepted)"
+    if not own and target.name not in JOINS.get(source.name, ()):
+        allowed = ", ".join(sorted(JOINS))
+        return f"no component includes another (these excepted: {allowed})"
     if source.kind == "algorithm" and target.kind == "node":
         return "an algorithm does not include a node"
     return ""

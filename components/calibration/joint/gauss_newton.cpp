@@ -47,6 +47,7 @@ class Descent {
   /// Largest change of a variable; 0 where no step lowers the objective.
   double Step() {
     ++solution_.iterations;
+    if (settings_.iterations != nullptr) ++*settings_.iterations;
     const Eigen::VectorXd step = FullStep();
     LeastSquaresPoint point;
     for (double length = 1.0; length >= kGaussNewtonTuning.shortest_step; length *= 0.5) {

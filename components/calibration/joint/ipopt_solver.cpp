@@ -145,6 +145,7 @@ class Nlp final : public Ipopt::TNLP {
                              Ipopt::IpoptCalculatedQuantities*) override {
     problem_.Accept();
     solution_.iterations = static_cast<int>(iteration);
+    if (settings_.iterations != nullptr) ++*settings_.iterations;
     solution_.objectives.push_back(objective);
     const double tolerance = settings_.step_tolerance;
     const bool is_allowed = infeasibility <= tolerance && (!has_bounds_ || barrier <= tolerance);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct LeastSquaresSettings {
   bool starts_there = false;
   /// Checked after each iteration: ends with kNotConverged.
   std::stop_token stop = {};
+  /// Counts the iterations of all solutions, where it is given; read from another thread.
+  std::atomic<int>* iterations = nullptr;
 };
 
 struct LeastSquaresSolution {

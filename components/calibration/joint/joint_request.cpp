@@ -296,6 +296,7 @@ JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<Calibrati
   JointSettings settings;
   settings.solver.huber_threshold = request.huber_threshold;
   settings.solver.stop = request.stop;
+  settings.solver.iterations = request.iterations;
   result = CalibrateJointly(model, setup, settings);
   if (!result.status.ok()) return result;
   const SizeComparison sizes = CompareSizes(model, setup.frames, result.x_m);

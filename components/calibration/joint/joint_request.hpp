@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -49,6 +50,8 @@ struct JointRequest {
   int threads = 2;
   double huber_threshold = 4.0;  ///< standard deviations; for wrongly assigned markers
   std::stop_token stop = {};     ///< ends the fit with kNotConverged
+  /// Counts the iterations of the fit, where it is given; read from another thread.
+  std::atomic<int>* iterations = nullptr;
 };
 
 /// The problem of these frames. Without a given pose the search starts from the registration of the

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "components/offline/images/image_samples.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibrate_points.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
-#include "components/palpate/images/image_samples.hpp"
 #include "components/palpate/images/open_images.hpp"
 #include "components/perception/markers/fiducial_detector.hpp"
 #include "components/perception/registered_frame.hpp"
@@ -55,14 +55,15 @@ std::string Rejected(const perception::FiducialRejections& rejected) {
 }
 
 /// Adds the points of one recording's images.
-void Look(const std::vector<ImageSample>& samples, const perception::FiducialConfig& config,
-          const std::vector<std::string>& markers, bool with_images, PointsWithoutNames* points) {
+void Look(const std::vector<offline::ImageSample>& samples,
+          const perception::FiducialConfig& config, const std::vector<std::string>& markers,
+          bool with_images, PointsWithoutNames* points) {
   perception::FiducialDetector detector(config);
   detector.SetCamera(samples.front().images->camera);
   perception::Registration registration(samples.front().images->camera);
   perception::RegisteredFrame registered;
   rgbd::RgbdFrame images;
-  for (const ImageSample& sample : samples) {
+  for (const offline::ImageSample& sample : samples) {
     sample.images->Read(sample.index, &images);
     const FiducialFrame& seen = detector.Detect(images);
     if (!seen.status.ok()) throw InputError(sample.frame.name + ": " + seen.status.message());
@@ -99,8 +100,8 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
   points.recordings = RecordingsWithImages(options, experiment);
   for (const experiment::Recording* recording : points.recordings) {
     const auto images = OpenImages(*recording);
-    Look(SamplesOf(*recording, images, *model, ParseCableInput(options.cable_input)), config,
-         markers, !options.assignment.empty(), &points);
+    Look(offline::SamplesOf(*recording, images, *model, ParseCableInput(options.cable_input)),
+         config, markers, !options.assignment.empty(), &points);
   }
   if (points.frames.empty()) {
     throw RunError(

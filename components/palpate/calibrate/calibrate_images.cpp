@@ -10,13 +10,14 @@
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/model_snapshot.hpp"
+#include "components/offline/images/image_misfit.hpp"
+#include "components/offline/images/image_samples.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
-#include "components/palpate/images/image_misfit.hpp"
-#include "components/palpate/images/image_samples.hpp"
 #include "components/palpate/images/open_images.hpp"
+#include "components/palpate/images/see_clouds.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -51,7 +52,7 @@ std::vector<ExpectedNodes> ExpectedAt(const std::vector<Eigen::VectorXd>& shapes
 
 /// What the images are compared with where they do not fit.
 struct Comparison {
-  const std::vector<ImageSample>& samples;
+  const std::vector<offline::ImageSample>& samples;
   rgbd::DepthNoise noise;
   std::string pose_name;
   Eigen::Isometry3d start;
@@ -64,13 +65,14 @@ struct Comparison {
   // The search finds poses within three of these (CalibrateFromClouds).
   constexpr double kRough_m = 0.017, kRough_rad = 0.116;
   const calibration::DepthMisfit misfit =
-      FindImageMisfit(compared.samples, compared.noise,
-                      {.pose_name = compared.pose_name,
-                       .T_robot_camera = ToTransform(compared.start),
-                       .translation_sigma_m = kRough_m,
-                       .rotation_sigma_rad = kRough_rad},
-                      model);
-  throw RunError(misfit.fits ? otherwise : MisfitText(misfit.reasons, "nothing was written"));
+      offline::FindImageMisfit(compared.samples, compared.noise,
+                               {.pose_name = compared.pose_name,
+                                .T_robot_camera = ToTransform(compared.start),
+                                .translation_sigma_m = kRough_m,
+                                .rotation_sigma_rad = kRough_rad},
+                               model);
+  throw RunError(misfit.fits ? otherwise
+                             : offline::MisfitText(misfit.reasons, "nothing was written"));
 }
 
 /// Sets the clouds of all frames and the calibration from them.
@@ -148,11 +150,11 @@ ImageCalibration FitImages(const CalibrateOptions& options,
   found.recordings = RecordingsWithImages(options, experiment);
   std::vector<experiment::RgbdSequence> sequences;
   sequences.reserve(found.recordings.size());
-  std::vector<ImageSample> samples;
+  std::vector<offline::ImageSample> samples;
   for (const Recording* recording : found.recordings) {
     sequences.push_back(OpenImages(*recording));
-    for (ImageSample& sample :
-         SamplesOf(*recording, sequences.back(), *model, ParseCableInput(options.cable_input))) {
+    for (offline::ImageSample& sample : offline::SamplesOf(*recording, sequences.back(), *model,
+                                                           ParseCableInput(options.cable_input))) {
       samples.push_back(std::move(sample));
     }
   }
@@ -164,7 +166,7 @@ ImageCalibration FitImages(const CalibrateOptions& options,
       .noise = perception::NoiseOf(perception),
       .pose_name = options.camera_pose.empty() ? "the approximate camera pose" : "--camera-pose",
       .start = start};
-  const std::vector<Eigen::VectorXd> shapes_m = ShapesOf(samples, model);
+  const std::vector<Eigen::VectorXd> shapes_m = offline::ShapesOf(samples, model);
   // An approximate pose misplaces the predicted surface; a known robot colour does not depend on
   // it.
   const bool by_color = !perception.robot_color_rgb.empty();

@@ -120,16 +120,6 @@ bool HasResult(const Status& status) {
   return status.ok() || status.code() == StatusCode::kNoContact;
 }
 
-bool HasForce(const ContactForce& contact) {
-  switch (contact.status.code()) {
-    case StatusCode::kOk:
-    case StatusCode::kTangentialUnobservable:
-    case StatusCode::kUncertain:
-    case StatusCode::kHidden: return true;
-    default: return false;
-  }
-}
-
 double ForceError_N(const ComparedForce& force) {
   PALPATE_CHECK(force.truth && force.estimate, force.t_s);
   const Eigen::Vector3d& estimated_N = force.estimate->force_N;

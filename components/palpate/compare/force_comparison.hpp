@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
+#include "components/offline/forces/has_force.hpp"
 #include "components/palpate/compare/truth_timeline.hpp"
 
 namespace palpate::command {
@@ -49,8 +50,7 @@ std::vector<ComparedForce> WithoutTruth(const force_estimation::ForceEstimate& e
 /// Whether the frame has a result: forces, or that there is none.
 bool HasResult(const Status& status);
 
-/// Whether the contact's force has a number.
-bool HasForce(const force_estimation::ContactForce& contact);
+using offline::HasForce;
 
 /// |F| of the estimate minus |F| of the truth, N; where only the normal component is observable,
 /// minus the truth's component along the normal. Needs both.

@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "components/force_estimation/shape/known_contacts.hpp"
+#include "components/offline/forces/marker_replay.hpp"
+#include "components/offline/forces/marker_tare.hpp"
 #include "components/palpate/compare/force_comparison.hpp"
 #include "components/palpate/estimate/estimate_settings.hpp"
-#include "components/palpate/estimate/marker_replay.hpp"
-#include "components/palpate/estimate/marker_tare.hpp"
+#include "components/palpate/estimate/frame_progress.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -74,21 +75,24 @@ ForceErrors Estimate(const robot::RobotDescription& robot,
                           {config.solver, config.threads});
   if (calibration) robot::ApplyCalibration(*calibration, &model);
   constexpr auto kInput = robot::CableInput::kDisplacement;
-  MarkerTare tare(experiment, &model, kInput, config);
+  offline::MarkerTare tare(experiment, &model, kInput, config);
   tare.Choose();
+  FrameProgress progress(model.body());
   ForceErrors errors;
   for (const experiment::Recording& recording : experiment.recordings) {
     if (!HasKnownForces(recording)) continue;
     const auto& frames = recording.markers->frames;
     const double duration_s = frames.back().t_s - frames.front().t_s;
     const double rate_Hz = duration_s > 0.0 ? kMostFrames / duration_s : 0.0;
-    const MarkerReplay replay({.experiment = experiment,
-                               .model = &model,
-                               .cable_input = kInput,
-                               .limits = {rate_Hz, stop_requested},
-                               .tare = &tare,
-                               .knows_directions = true},
-                              config, calibration.value_or(robot::CalibrationFile()));
+    const offline::MarkerReplay replay(
+        {.experiment = experiment,
+         .model = &model,
+         .cable_input = kInput,
+         .limits = {rate_Hz, stop_requested,
+                    [&](int done, int total) { progress.Update(done, total); }},
+         .tare = &tare,
+         .knows_directions = true},
+        config, calibration.value_or(robot::CalibrationFile()));
     replay.Estimate(recording, [&](const force_estimation::ForceEstimate& estimate) {
       if (recording.steady_window_s && !recording.steady_window_s->Contains(estimate.t_s)) return;
       const auto of_frame = ErrorsOf(estimate, recording);

@@ -11,29 +11,17 @@
 #include <optional>
 #include <utility>
 
-#include "components/force_estimation/contact_site.hpp"
-#include "components/force_estimation/pipeline/shape_pipeline.hpp"
 #include "components/palpate/compare/comparison_output.hpp"
-#include "components/palpate/estimate/bias_frames.hpp"
-#include "components/palpate/estimate/image_check.hpp"
-#include "components/palpate/estimate/marker_replay.hpp"
-#include "components/palpate/estimate/replay_perception.hpp"
-#include "components/palpate/estimate/rest_check.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/images/open_images.hpp"
 #include "components/palpate/robot_scene.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
-#include "libs/experiment/cameras.hpp"
 #include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
 
 namespace {
-
-geometry::PoseStandardError ErrorOf(const robot::CalibratedPose& pose) {
-  return {.translation_m = pose.translation_error_m.maxCoeff(),
-          .rotation_rad = pose.rotation_error_rad.maxCoeff()};
-}
 
 /// Applies the calibration to the model and the experiment, and returns it.
 robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model,
@@ -44,36 +32,13 @@ robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot
   }
   auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
   robot::ApplyCalibration(calibration, model);
-  if (calibration.pose) {
-    experiment->T_robot_camera = calibration.pose->T_robot_camera;
-    experiment->T_robot_camera_error = ErrorOf(*calibration.pose);
-  }
-  for (const std::string& name : experiment::FurtherCameras(*experiment)) {
-    for (const robot::CalibratedCamera& camera : calibration.cameras) {
-      if (camera.name == name)
-        experiment::SetPose(name, camera.pose.T_robot_camera, ErrorOf(camera.pose), experiment);
-    }
-  }
+  offline::TakePoses(calibration, experiment);
   return calibration;
 }
 
-/// The pose's priors of the settings, or the largest error that is stated where that is larger.
-void WidenPosePriors(const experiment::Experiment& experiment,
-                     force_estimation::ShapeConfig* shape) {
-  const auto widen = [&](const std::optional<geometry::PoseStandardError>& error) {
-    if (!error) return;
-    shape->pose_prior_m = std::max(shape->pose_prior_m, error->translation_m);
-    shape->pose_prior_rad = std::max(shape->pose_prior_rad, error->rotation_rad);
-  };
-  widen(experiment.T_robot_camera_error);
-  for (const auto& camera : experiment.cameras) widen(camera.T_robot_camera_error);
-  for (const auto& recording : experiment.recordings) {
-    if (recording.T_robot_camera) widen(recording.T_robot_camera_error);
-  }
-}
-
-bool IsResult(const Status& status) {
-  return status.ok() || status.code() == StatusCode::kNoContact;
+offline::BiasFrom BiasFromOf(const std::string& bias_frames) {
+  if (bias_frames == "first") return offline::BiasFrom::kFirst;
+  return bias_frames == "none" ? offline::BiasFrom::kNone : offline::BiasFrom::kRecordings;
 }
 
 /// forces.svg -> forces_NAME.svg
@@ -88,11 +53,22 @@ EstimateRun::EstimateRun(const EstimateOptions& options, const EstimateSettings&
                          experiment::Experiment* experiment, robot::RobotModel* model,
                          std::function<bool()> stop_requested)
     : options_(options),
-      settings_(settings),
-      experiment_(*experiment),
       model_(*model),
-      calibration_(ApplyCalibration(options.calibration, model, experiment)),
       stop_requested_(std::move(stop_requested)),
+      progress_(model->body()),
+      replay_(
+          {.experiment = *experiment,
+           .model = model,
+           .calibration = ApplyCalibration(options.calibration, model, experiment),
+           .calibration_name = options.calibration.string(),
+           .cable_input = ParseCableInput(options.cable_input),
+           .bias = BiasFromOf(options.bias_frames),
+           .limits = {.rate_Hz = options.rate_Hz,
+                      .stop_requested = stop_requested_,
+                      .progress = [this](int done, int total) { progress_.Update(done, total); }},
+           .open = OpenImages,
+           .note = [this](const std::string& note) { Say(note); }},
+          settings),
       json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::array())) {
   if (options.answer.empty()) return;
   truth_ = ReadKnownTruth(options.answer, *experiment, BodyDiagonal_m(model->body()));
@@ -104,115 +80,31 @@ EstimateRun::EstimateRun(const EstimateOptions& options, const EstimateSettings&
 EstimateRun::~EstimateRun() = default;
 
 void EstimateRun::Say(const std::string& note) {
+  progress_.End();
   fmt::print(stderr, "palpate estimate: {}\n", note);
 }
 
-ShapeReplay& EstimateRun::Shape() {
-  if (!shape_) shape_ = MakeShapeReplay();
-  return *shape_;
+void EstimateRun::Prepare(const std::vector<offline::PlannedRecording>& plan) {
+  replay_.Prepare(plan);
+  progress_.End();
 }
 
-std::unique_ptr<ShapeReplay> EstimateRun::MakeShapeReplay() const {
-  const std::vector<std::string> cameras = experiment::FurtherCameras(experiment_);
-  ReplayPerception perception =
-      MakeReplayPerception(settings_.perception, DepthBiasesOf(calibration_, cameras));
-  force_estimation::ShapeConfig shape = settings_.shape;
-  WidenPosePriors(experiment_, &shape);
-  if (options_.bias_frames != "first" || calibration_.depth_bias) shape.untouched_frames = 0;
-  auto pipeline = std::make_unique<force_estimation::ShapePipeline>(model_, settings_.forces, shape,
-                                                                    calibration_, cameras);
-  const ShapeReplay::Inputs inputs{.experiment = experiment_,
-                                   .model = &model_,
-                                   .cable_input = ParseCableInput(options_.cable_input),
-                                   .limits = Limits(),
-                                   .expect_posture = options_.bias_frames != "first"};
-  return std::make_unique<ShapeReplay>(inputs, std::move(perception), std::move(pipeline));
-}
-
-void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
-  const bool from_shape = std::any_of(
-      plan.begin(), plan.end(),
-      [](const PlannedRecording& planned) { return planned.from == EstimateFrom::kShape; });
-  if (!from_shape) return;
-  for (const auto& site : force_estimation::ParseContactSites(settings_.forces.contacts)) {
-    if (site.direction.isZero(0.0)) continue;
-    Say("the direction of contact '" + site.name + "' is used with markers only");
-  }
-  CheckImages(plan);
-  if (options_.bias_frames != "recordings") return;
-  BiasFrames found = FindBiasFrames({.experiment = experiment_,
-                                     .plan = plan,
-                                     .is_calibrated = calibration_.depth_bias.has_value(),
-                                     .most_first_frames = settings_.shape.untouched_frames},
-                                    [this] { return MakeShapeReplay(); });
-  shape_ = std::move(found.replay);
-  for (const std::string& note : found.notes) Say(note);
-}
-
-void EstimateRun::CheckImages(const std::vector<PlannedRecording>& plan) const {
-  force_estimation::ShapeConfig shape = settings_.shape;
-  WidenPosePriors(experiment_, &shape);
-  RequireImagesFit(
-      {.experiment = experiment_,
-       .model = &model_,
-       .cable_input = ParseCableInput(options_.cable_input),
-       .noise = perception::NoiseOf(settings_.perception),
-       .pose_name = "T_robot_camera of " +
-                    (calibration_.pose ? options_.calibration.string() : "experiment.yaml"),
-       .pose_error = {.translation_m = shape.pose_prior_m, .rotation_rad = shape.pose_prior_rad}},
-      plan);
-}
-
-void EstimateRun::CalibrateMarkerOffsets(const std::vector<PlannedRecording>& plan) {
-  const bool needed = std::any_of(plan.begin(), plan.end(), [](const PlannedRecording& planned) {
-    return planned.from == EstimateFrom::kMarkers && !planned.recording->reference;
-  });
-  if (!needed) return;
-  tare_ = std::make_unique<MarkerTare>(experiment_, &model_, ParseCableInput(options_.cable_input),
-                                       settings_.forces);
-  for (const std::string& note : tare_->Choose()) Say(note);
-}
-
-ReplayCount EstimateRun::Replay(const PlannedRecording& planned, const TakeEstimate& take) {
-  if (planned.from == EstimateFrom::kShape) {
-    Shape().TakeNotes();  // of the bias frames
-    const ReplayCount count = Shape().Estimate(*planned.recording, take);
-    for (const std::string& note : Shape().TakeNotes()) Say(note);
-    return count;
-  }
-  const MarkerReplay::Inputs inputs{.experiment = experiment_,
-                                    .model = &model_,
-                                    .cable_input = ParseCableInput(options_.cable_input),
-                                    .limits = Limits(),
-                                    .tare = tare_.get()};
-  return MarkerReplay(inputs, settings_.forces, calibration_).Estimate(*planned.recording, take);
-}
-
-RestCheck::Known EstimateRun::RestCheckOf(const PlannedRecording& planned) const {
-  const bool from_shape = planned.from == EstimateFrom::kShape;
-  return {.calibrated = !options_.calibration.empty(),
-          .significance = from_shape ? settings_.shape.significance : settings_.forces.significance,
-          .gravity_m_s2 = model_.gravity_m_s2()};
-}
-
-void EstimateRun::Estimate(const PlannedRecording& planned, bool is_only) {
+void EstimateRun::Estimate(const offline::PlannedRecording& planned, bool is_only) {
   const experiment::Recording& recording = *planned.recording;
   ForceSummary summary(recording.name, recording.steady_window_s, recording.loads);
   RecordingComparison comparison(recording.name, truth_ ? &*truth_ : nullptr);
-  RestCheck rest(experiment_, recording, RestCheckOf(planned));
-  const TakeEstimate take = [&](const force_estimation::ForceEstimate& estimate) {
+  const offline::TakeEstimate take = [&](const force_estimation::ForceEstimate& estimate) {
     table_.Add(recording.name, estimate);
     summary.Add(estimate);
     comparison.Add(estimate, &all_);
-    rest.Add(estimate);
-    with_result_ += IsResult(estimate.status) ? 1 : 0;
+    with_result_ += force_estimation::IsUsable(estimate.status) ? 1 : 0;
   };
-  const ReplayCount count = Replay(planned, take);
+  const auto [count, failure] = replay_.Estimate(planned, take);
+  progress_.End();
   count_ = {.done = count_.done + count.done, .total = count_.total + count.total};
   interrupted_ = interrupted_ || !count.complete();
   nlohmann::ordered_json json = summary.ToJson();
-  json["from"] = ToString(planned.from);
-  const auto failure = rest.Failure();
+  json["from"] = offline::ToString(planned.from);
   if (failure) json["error"] = *failure;
   if (comparison.has_truth()) json["comparison"] = ToJson(comparison.summary());
   json_->push_back(std::move(json));

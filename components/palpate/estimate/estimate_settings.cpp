@@ -12,11 +12,7 @@ EstimateSettings ReadEstimateSettings(const experiment::Experiment& experiment,
                                       const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides,
                                       const std::vector<std::string>& contacts, bool as_process) {
-  EstimateSettings settings;
-  if (!as_process) settings.shape.frame_work = 0.0;
-  if (experiment.depth_noise && experiment.depth_noise->subpixel_px > 0.0) {
-    settings.perception.depth_subpixel_px = experiment.depth_noise->subpixel_px;
-  }
+  EstimateSettings settings = offline::DefaultForceSettings(experiment, as_process);
   const std::vector<app::Setting> list = app::ListSettings(settings);
   if (!file.empty()) app::LoadSettings(app::LoadYaml(file), list);
   for (const std::string& assignment : overrides) app::ApplyOverride(assignment, list);

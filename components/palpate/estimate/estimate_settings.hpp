@@ -5,30 +5,15 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "components/force_estimation/config.hpp"
-#include "components/force_estimation/shape/shape_config.hpp"
-#include "components/perception/config.hpp"
+#include "components/offline/forces/force_settings.hpp"
 #include "libs/experiment/experiment.hpp"
 
 namespace palpate::command {
 
-/// The settings of `palpate estimate`: those of force estimation under their own names, as in the
-/// file of palpate-force-estimation, and those that only images need.
-struct EstimateSettings {
-  force_estimation::Config forces;
-  perception::Config perception;
-  force_estimation::ShapeConfig shape;
-
-  template <typename Visitor>
-  void Visit(Visitor&& v) {
-    forces.Visit(v);
-    v("perception", perception, "Image processing: clouds and contacts");
-    v("shape", shape, "Forces from the robot's shape");
-  }
-};
+/// The settings of `palpate estimate`.
+using EstimateSettings = offline::ForceSettings;
 
 /// Defaults, the depth noise of the experiment, `file` (empty: none), `overrides`
 /// (KEY=VALUE), and `contacts` added to the settings' own; later ones override. Throws InputError.

@@ -46,17 +46,14 @@ int EstimateInFolder(const std::filesystem::path& folder, const EstimateOptions&
   const EstimateSettings settings =
       ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts,
                            options.bias_frames == "first");
-  const auto plan = PlanEstimates(experiment, options.recordings, options.from);
+  const auto plan = offline::PlanEstimates(
+      experiment, ChooseRecordings(experiment, options.recordings), options.from);
   const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads},
                                options.calibration);
-  for (const PlannedRecording& planned : plan) {
-    RequireLoadsOnBody(*planned.recording, model->locator());
-  }
   const app::StopSignal stop;
   EstimateRun run(options, settings, &experiment, model.get(), [&] { return stop.Requested(); });
-  run.EstimateDepthBias(plan);
-  run.CalibrateMarkerOffsets(plan);
-  for (const PlannedRecording& planned : plan) {
+  run.Prepare(plan);
+  for (const offline::PlannedRecording& planned : plan) {
     if (!stop.Requested()) run.Estimate(planned, /*is_only=*/plan.size() == 1);
   }
   return run.Finish();

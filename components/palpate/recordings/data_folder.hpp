@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "components/offline/messages/temporary_experiment.hpp"
 #include "libs/app/arguments.hpp"
 
 namespace palpate::command {
@@ -19,9 +21,6 @@ class DataFolder {
   /// Prints on the standard error output what was made of the messages. Throws as MakeExperiment;
   /// InputError, too, where `remap` is given for a folder.
   DataFolder(const std::filesystem::path& data, const std::vector<std::string>& remap);
-  ~DataFolder();
-  DataFolder(const DataFolder&) = delete;
-  DataFolder& operator=(const DataFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -32,11 +31,8 @@ class DataFolder {
   std::string Named(std::string text) const;
 
  private:
-  void Remove() const;
-
-  std::filesystem::path data_;
   std::filesystem::path path_;
-  std::filesystem::path temporary_;  ///< empty: none was made
+  std::unique_ptr<const offline::TemporaryExperiment> made_;  ///< of recorded messages
 };
 
 /// The option --remap of a verb with --data.

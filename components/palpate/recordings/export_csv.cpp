@@ -25,7 +25,7 @@ std::string CsvField(const std::string& text) {
 
 class CsvExport : public TopicExport {
  public:
-  CsvExport(MessageType type, std::filesystem::path file, std::int64_t start_ns)
+  CsvExport(offline::MessageType type, std::filesystem::path file, std::int64_t start_ns)
       : type_(std::move(type)), file_(std::move(file)), start_ns_(start_ns) {}
 
   std::string Take(const recording::Message& message) override {
@@ -60,7 +60,7 @@ class CsvExport : public TopicExport {
     return line + "\n";
   }
 
-  MessageType type_;
+  offline::MessageType type_;
   std::filesystem::path file_;
   std::int64_t start_ns_;
   std::vector<std::string> names_{"t_s", "log_time_ns"};
@@ -70,7 +70,7 @@ class CsvExport : public TopicExport {
 
 }  // namespace
 
-std::unique_ptr<TopicExport> MakeCsvExport(MessageType type, std::filesystem::path file,
+std::unique_ptr<TopicExport> MakeCsvExport(offline::MessageType type, std::filesystem::path file,
                                            std::int64_t start_ns) {
   return std::make_unique<CsvExport>(std::move(type), std::move(file), start_ns);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/recordings/ros_image.hpp"
+#include "components/offline/messages/ros_image.hpp"
 #include "components/palpate/recordings/topic_export.hpp"
 #include "libs/rgbd/png.hpp"
 
@@ -11,30 +11,31 @@ namespace {
 
 class ImageExport : public TopicExport {
  public:
-  ImageExport(MessageType type, std::filesystem::path folder)
+  ImageExport(offline::MessageType type, std::filesystem::path folder)
       : type_(std::move(type)), folder_(std::move(folder)) {}
 
   std::string Take(const recording::Message& message) override {
-    RosImage image;
-    if (std::string cause = ReadImage(message.data, type_, &image); !cause.empty()) return cause;
-    const auto file = folder_ / (std::to_string(StampOf(message, type_)) + ".png");
+    offline::RosImage image;
+    if (std::string cause = offline::ReadImage(message.data, type_, &image); !cause.empty())
+      return cause;
+    const auto file = folder_ / (std::to_string(offline::StampOf(message, type_)) + ".png");
     return image.IsDepth() ? TakeDepth(image, file) : TakeColor(image, file);
   }
 
  private:
-  std::string TakeDepth(const RosImage& image, const std::filesystem::path& file) {
+  std::string TakeDepth(const offline::RosImage& image, const std::filesystem::path& file) {
     if (image.encoding == "32FC1") {
       return "encoding '32FC1' cannot be a PNG; `palpate export --experiment` makes 16-bit images "
              "of it";
     }
-    RosDepth depth;
+    offline::RosDepth depth;
     if (std::string cause = DecodeRosDepth(image, &depth); !cause.empty()) return cause;
     std::filesystem::create_directories(folder_);
     rgbd::WriteDepthPng(file, depth.steps);
     return {};
   }
 
-  std::string TakeColor(const RosImage& image, const std::filesystem::path& file) {
+  std::string TakeColor(const offline::RosImage& image, const std::filesystem::path& file) {
     rgbd::ColorImage color;
     if (std::string cause = DecodeRosColor(image, &color); !cause.empty()) return cause;
     std::filesystem::create_directories(folder_);
@@ -42,13 +43,14 @@ class ImageExport : public TopicExport {
     return {};
   }
 
-  MessageType type_;
+  offline::MessageType type_;
   std::filesystem::path folder_;
 };
 
 }  // namespace
 
-std::unique_ptr<TopicExport> MakeImageExport(MessageType type, std::filesystem::path folder) {
+std::unique_ptr<TopicExport> MakeImageExport(offline::MessageType type,
+                                             std::filesystem::path folder) {
   return std::make_unique<ImageExport>(std::move(type), std::move(folder));
 }
 

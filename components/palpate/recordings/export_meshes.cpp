@@ -28,7 +28,7 @@ std::vector<Number> Numbers(recording::CdrReader* reader) {
 }
 
 /// nullopt where it is no mesh of tetrahedra.
-std::optional<fem::TetMesh> ReadMesh(std::string_view cdr, const MessageType& type,
+std::optional<fem::TetMesh> ReadMesh(std::string_view cdr, const offline::MessageType& type,
                                      std::string* hash) {
   recording::CdrReader reader = AtField(cdr, type.name, "mesh_hash", type.definitions);
   *hash = reader.String();
@@ -53,7 +53,7 @@ std::optional<fem::TetMesh> ReadMesh(std::string_view cdr, const MessageType& ty
 
 class MeshExport : public TopicExport {
  public:
-  MeshExport(MessageType type, std::filesystem::path folder,
+  MeshExport(offline::MessageType type, std::filesystem::path folder,
              const recording::RecordedMessages& reader, std::int64_t start_ns)
       : type_(std::move(type)), folder_(std::move(folder)), start_ns_(start_ns) {
     recording::MessageFilter filter;
@@ -63,7 +63,8 @@ class MeshExport : public TopicExport {
     recording::RecordedStream stream = reader.Messages(filter);
     while (const recording::Message* message = stream.Next()) {
       const auto& schema = reader.SchemaOf(reader.contents().channels.at(message->channel_id));
-      const MessageType mesh_type{kMeshType, recording::ParseRos2msg(kMeshType, schema.data)};
+      const offline::MessageType mesh_type{kMeshType,
+                                           recording::ParseRos2msg(kMeshType, schema.data)};
       std::string hash;
       if (auto mesh = ReadMesh(message->data, mesh_type, &hash)) meshes_[hash] = std::move(*mesh);
     }
@@ -84,7 +85,7 @@ class MeshExport : public TopicExport {
         Eigen::Map<const Eigen::VectorXf>(positions_m.data(), rest_m.size()).cast<double>() -
         rest_m;
     std::filesystem::create_directories(folder_);
-    const std::string name = std::to_string(StampOf(message, type_)) + ".vtu";
+    const std::string name = std::to_string(offline::StampOf(message, type_)) + ".vtu";
     const fem::VtuField field{"displacement_m", displacement_m.reshaped(3, rest_m.size() / 3)};
     fem::WriteVtu(folder_ / name, mesh->second, rest_m, {{field}, {}});
     steps_ += "<DataSet timestep=\"" + FormatNumber(NsToSeconds(message.log_time_ns - start_ns_)) +
@@ -101,7 +102,7 @@ class MeshExport : public TopicExport {
   }
 
  private:
-  MessageType type_;
+  offline::MessageType type_;
   std::filesystem::path folder_;
   std::int64_t start_ns_;
   std::map<std::string, fem::TetMesh> meshes_;
@@ -110,7 +111,7 @@ class MeshExport : public TopicExport {
 
 }  // namespace
 
-std::unique_ptr<TopicExport> MakeMeshExport(MessageType type, std::filesystem::path folder,
+std::unique_ptr<TopicExport> MakeMeshExport(offline::MessageType type, std::filesystem::path folder,
                                             const recording::RecordedMessages& reader,
                                             std::int64_t start_ns) {
   return std::make_unique<MeshExport>(std::move(type), std::move(folder), reader, start_ns);

@@ -8,7 +8,7 @@
 #include <memory>
 #include <set>
 
-#include "components/palpate/recordings/ros_image.hpp"
+#include "components/offline/messages/ros_image.hpp"
 #include "components/palpate/recordings/topic_export.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/names.hpp"
@@ -66,7 +66,7 @@ class Exporter {
   void Open(const recording::Channel& channel) {
     Channel& opened = channels_[channel.id];
     opened.told.topic = channel.topic;
-    const std::unique_ptr<MessageType> type = TypeOf(reader_.SchemaOf(channel));
+    const std::unique_ptr<offline::MessageType> type = offline::TypeOf(reader_.SchemaOf(channel));
     if (!type) {
       opened.told.reason = "no definition of " + reader_.SchemaOf(channel).name + " is known";
       return;
@@ -76,7 +76,7 @@ class Exporter {
     if (!names_.insert(name).second) name += "_" + std::to_string(channel.id);
     const std::int64_t start_ns = reader_.contents().statistics.start_time_ns;
     opened.told.target = options_.out / name;
-    if (type->name == kImageType || type->name == kCompressedImageType) {
+    if (type->name == offline::kImageType || type->name == offline::kCompressedImageType) {
       opened.files = MakeImageExport(*type, opened.told.target);
     } else if (type->name == "sensor_msgs/msg/PointCloud2") {
       opened.files = MakeCloudExport(*type, opened.told.target, options_.clouds);

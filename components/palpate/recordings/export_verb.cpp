@@ -11,11 +11,11 @@
 #include <system_error>
 #include <vector>
 
+#include "components/offline/messages/make_experiment.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
 #include "components/palpate/recordings/export_messages.hpp"
-#include "components/palpate/recordings/make_experiment.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -73,7 +73,7 @@ std::vector<std::string> MakeWhole(const ExportCommand& command) {
   RemoveOnSignal(out);
   try {
     std::vector<std::string> notes =
-        MakeExperiment(command.file, command.remap, out, app::LoadYaml);
+        offline::MakeExperiment(command.file, command.remap, out, app::LoadYaml);
     RemoveOnSignal({});
     return notes;
   } catch (...) {

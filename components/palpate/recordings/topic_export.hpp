@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "components/offline/messages/message_type.hpp"
 #include "components/palpate/recordings/export_messages.hpp"
-#include "components/palpate/recordings/message_type.hpp"
 
 namespace palpate::command {
 
@@ -25,15 +25,16 @@ class TopicExport {
 };
 
 /// One CSV: t_s from the beginning of the recording, log_time_ns, then a column for each value.
-std::unique_ptr<TopicExport> MakeCsvExport(MessageType type, std::filesystem::path file,
+std::unique_ptr<TopicExport> MakeCsvExport(offline::MessageType type, std::filesystem::path file,
                                            std::int64_t start_ns);
 /// STAMP.png of 16-bit depth and of colour, packed images too; STAMP.ply or .pcd of clouds.
-std::unique_ptr<TopicExport> MakeImageExport(MessageType type, std::filesystem::path folder);
-std::unique_ptr<TopicExport> MakeCloudExport(MessageType type, std::filesystem::path folder,
-                                             CloudFormat format);
+std::unique_ptr<TopicExport> MakeImageExport(offline::MessageType type,
+                                             std::filesystem::path folder);
+std::unique_ptr<TopicExport> MakeCloudExport(offline::MessageType type,
+                                             std::filesystem::path folder, CloudFormat format);
 /// STAMP.vtu of mesh states, undeformed points with displacement_m, and body.pvd with their times.
 /// The meshes are those of the recording's Mesh messages.
-std::unique_ptr<TopicExport> MakeMeshExport(MessageType type, std::filesystem::path folder,
+std::unique_ptr<TopicExport> MakeMeshExport(offline::MessageType type, std::filesystem::path folder,
                                             const recording::RecordedMessages& reader,
                                             std::int64_t start_ns);
 

@@ -238,7 +238,7 @@ TEST_F(EstimateOutputs, AnInterruptedRunLeavesTheForcesSoFar) {
   const auto model = LoadRobot(options_.robot);
   int frames = 0;
   EstimateRun run(options_, settings, &experiment, model.get(), [&] { return frames++ >= 5; });
-  run.Estimate(PlanEstimates(experiment, {}, "").front());
+  run.Estimate(offline::PlanEstimates(experiment, {}, "").front());
   EXPECT_THAT(
       MessageOf<app::Interrupted>([&] { run.Finish(); }),
       AllOf(HasSubstr("after 5 of 20 frames: their forces are in "), HasSubstr("forces.csv")));
@@ -252,7 +252,7 @@ TEST_F(EstimateOutputs, ARunInterruptedBeforeItsFirstFrameWritesNothing) {
   const EstimateSettings settings = ReadEstimateSettings(experiment, {}, {}, {});
   const auto model = LoadRobot(options_.robot);
   EstimateRun run(options_, settings, &experiment, model.get(), [] { return true; });
-  run.Estimate(PlanEstimates(experiment, {}, "").front());
+  run.Estimate(offline::PlanEstimates(experiment, {}, "").front());
   EXPECT_THAT(MessageOf<app::Interrupted>([&] { run.Finish(); }), HasSubstr("nothing was written"));
   EXPECT_FALSE(std::filesystem::exists(options_.out));
 }
@@ -268,11 +268,11 @@ TEST_F(EstimateOutputs, OutputsAreCheckedBeforeTheWork) {
 }
 
 TEST(KeptFrames, AreTheFirstOfEachPeriod) {
-  EXPECT_EQ(KeptFrames({5.0, 5.1, 5.2, 5.3, 5.9}, 5.0),
+  EXPECT_EQ(offline::KeptFrames({5.0, 5.1, 5.2, 5.3, 5.9}, 5.0),
             (std::vector<bool>{true, false, true, false, true}));
-  EXPECT_EQ(KeptFrames({0.0, 0.1, 0.2}, 0.0), (std::vector<bool>{true, true, true}));
-  EXPECT_EQ(KeptFrames({0.0, 0.1, 0.2}, 1000.0), (std::vector<bool>{true, true, true}));
-  EXPECT_TRUE(KeptFrames({}, 5.0).empty());
+  EXPECT_EQ(offline::KeptFrames({0.0, 0.1, 0.2}, 0.0), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(offline::KeptFrames({0.0, 0.1, 0.2}, 1000.0), (std::vector<bool>{true, true, true}));
+  EXPECT_TRUE(offline::KeptFrames({}, 5.0).empty());
 }
 
 }  // namespace

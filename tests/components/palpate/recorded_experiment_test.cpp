@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "components/offline/messages/make_experiment.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
-#include "components/palpate/recordings/make_experiment.hpp"
 #include "libs/app/child_process.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
@@ -64,7 +64,7 @@ class RecordedExperiment : public testing::Test {
 
 TEST_F(RecordedExperiment, HasTheMarkersAndForcesOfTheFolderBitForBit) {
   PlayAndRecord();
-  MakeExperiment(file_, {}, folder_ / "made", app::LoadYaml);
+  offline::MakeExperiment(file_, {}, folder_ / "made", app::LoadYaml);
   const auto made = experiment::ReadExperiment(folder_ / "made", app::LoadYaml);
   const auto played = experiment::ReadExperiment(kPlayedBeam, app::LoadYaml);
   ASSERT_EQ(made.recordings.size(), 2u);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "components/palpate/estimate/estimate_plan.hpp"
+#include "components/offline/forces/estimate_plan.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -33,7 +33,7 @@ ReplayedImages ExamineImages(const std::filesystem::path& data,
   const auto experiment = experiment::ReadExperiment(data, app::LoadYaml);
   ReplayedImages images;
   for (const experiment::Recording& recording : experiment.recordings) {
-    if (!HasImages(recording)) continue;
+    if (!offline::HasImages(recording)) continue;
     const Eigen::Isometry3d T_robot_camera =
         calibrated ? *calibrated : CameraPose(experiment, recording);
     if (images.recordings == 0) images.T_robot_camera = T_robot_camera;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/recordings/make_experiment.hpp"
+#include "components/offline/messages/make_experiment.hpp"
 
 #include <gmock/gmock.h>
 
@@ -57,7 +57,7 @@ class MakeExperimentTest : public testing::Test {
 
   experiment::Experiment Make(const std::vector<std::string>& remap = {}) {
     messages_.WriteMcap(folder_ / "run.mcap");
-    notes_ = MakeExperiment(folder_ / "run.mcap", remap, out_, app::LoadYaml);
+    notes_ = offline::MakeExperiment(folder_ / "run.mcap", remap, out_, app::LoadYaml);
     return experiment::ReadExperiment(out_, app::LoadYaml);
   }
   std::string Refusal(const std::vector<std::string>& remap = {}) {
@@ -101,7 +101,7 @@ TEST_F(MakeExperimentTest, ASqliteRecordingGivesTheSameAsAnMcapFile) {
   AddDepth(1);
   AddJoints(0, "north", 0.01);
   messages_.WriteSqlite(folder_ / "run.db3");
-  MakeExperiment(folder_ / "run.db3", {}, folder_ / "of_db3", app::LoadYaml);
+  offline::MakeExperiment(folder_ / "run.db3", {}, folder_ / "of_db3", app::LoadYaml);
   Make();
   for (const char* name : {"actuation.csv", "camera.yaml", "depth/0.png", "depth/100000000.png"}) {
     EXPECT_EQ(ReadFile(out_ / "recordings/run" / name),
@@ -119,7 +119,7 @@ TEST_F(MakeExperimentTest, FilesOfOneFolderAreOneRecording) {
   messages_.entries.clear();
   AddDepth(1);
   messages_.WriteMcap(folder_ / "bag/bag_1.mcap");
-  MakeExperiment(folder_ / "bag", {}, out_, app::LoadYaml);
+  offline::MakeExperiment(folder_ / "bag", {}, out_, app::LoadYaml);
   const auto experiment = experiment::ReadExperiment(out_, app::LoadYaml);
   EXPECT_EQ(experiment.recordings.front().depth_images.size(), 2u);
 }
@@ -360,7 +360,7 @@ TEST(MakeExperimentOfRos2, ARecordingWithoutIntrinsicsIsRefusedWithTheReason) {
   const auto file = test_support::MeasuredDataFolder() / "ros2/ros2_humble_image_wrench.mcap";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " (set PALPATE_DATA_DIR)";
   const TestFolder folder;
-  EXPECT_THAT(MessageOf([&] { MakeExperiment(file, {}, folder / "out", app::LoadYaml); }),
+  EXPECT_THAT(MessageOf([&] { offline::MakeExperiment(file, {}, folder / "out", app::LoadYaml); }),
               HasSubstr("/camera/depth/image_raw: no intrinsics"));
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/palpate/recordings/make_experiment.hpp"
+#include "components/offline/messages/make_experiment.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/experiment/cloud/pcd.hpp"
@@ -125,7 +125,7 @@ class RecordedFormats : public testing::Test {
 
   experiment::Experiment MakeOf(const std::filesystem::path& file) {
     notes_.clear();
-    for (const std::string& note : MakeExperiment(file, {}, out_, app::LoadYaml)) {
+    for (const std::string& note : offline::MakeExperiment(file, {}, out_, app::LoadYaml)) {
       notes_ += note + "\n";
     }
     return experiment::ReadExperiment(out_, app::LoadYaml);

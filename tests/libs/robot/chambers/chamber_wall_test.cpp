@@ -144,5 +144,15 @@ TEST(Stl, IsReadAsTextToo) {
   EXPECT_EQ(surface.Corner(0, 1), Eigen::Vector3d(1e-3, 0.0, 0.0));
 }
 
+TEST_F(ChamberWalls, RefuseAWallOfTwoChambersWithItsPlace) {
+  EXPECT_THAT(Refusal(Text(R"(chambers:
+  - {name: upper, surface: {physical_group: upper wall}}
+  - {name: again, surface: {inner_skin: 2}}
+)")),
+              testing::AllOf(HasSubstr("robot.yaml:11:28:"),
+                             HasSubstr("chamber 'again' has the wall of chamber 'upper', as at ("),
+                             HasSubstr("a hollow is one chamber")));
+}
+
 }  // namespace
 }  // namespace palpate::robot
