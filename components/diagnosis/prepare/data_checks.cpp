@@ -137,7 +137,7 @@ bool IsFrozen(const std::vector<const SeenCloud*>& clouds) {
 /// How the commands go at the stamps of depth frames.
 Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud*>& clouds) {
   Jumpiness jumpiness;
-  for (Eigen::Index c = 0; c < std::ssize(timeline.cables); ++c) {
+  for (Eigen::Index c = 0; c < std::ssize(timeline.actuators); ++c) {
     std::vector<Eigen::Vector3d> series;
     for (const SeenCloud* one : clouds) {
       const double commanded = timeline.CommandAt(one->frame.t_s)[c];

@@ -45,7 +45,7 @@ bool SeesTheRobot(const Sample& sample, bool in_frames) {
 /// most.
 ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
   const Timeline& timeline = observed.timeline;
-  Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.cables));
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.actuators));
   for (const Eigen::VectorXd& command : timeline.command) {
     most = command.array().isNaN().select(most, command.cwiseMax(most));
   }
