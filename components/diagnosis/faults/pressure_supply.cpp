@@ -44,23 +44,15 @@ class PressureGainFault final : public FaultModel {
                      .fault = 0.1,
                      .least = -0.9,
                      .plausible = 0.5}}),
-        actuator_(at.actuator),
-        chamber_(at.chamber.name) {}
+        actuator_(at.actuator) {}
 
   bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     hypothesis->actuators.gain[actuator_] += z[0];
   }
 
-  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
-              std::vector<robot::CalibratedDrive>* drives) const override {
-    DriveOf(chamber_, drives).drive.gain += z[0];
-    return true;
-  }
-
  private:
   Eigen::Index actuator_;
-  std::string chamber_;
 };
 
 class PressureZeroFault final : public FaultModel {
@@ -75,25 +67,16 @@ class PressureZeroFault final : public FaultModel {
                      .tolerance = 100.0,
                      .fault = std::max(300.0, kFault * at.chamber.max_pressure_Pa)}}),
         actuator_(at.actuator),
-        area_m2_(at.area_m2),
-        chamber_(at.chamber.name) {}
+        area_m2_(at.area_m2) {}
 
   bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     hypothesis->actuators.pressure_zero_N[actuator_] += z[0] * area_m2_;
   }
 
-  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
-              std::vector<robot::CalibratedDrive>* drives) const override {
-    DriveOf(chamber_, drives);
-    (void)z;
-    return true;
-  }
-
  private:
   Eigen::Index actuator_;
   double area_m2_;
-  std::string chamber_;
 };
 
 class SlowValve final : public FaultModel {
@@ -211,6 +194,17 @@ class SwappedTubes final : public FaultModel {
   std::string name_b_;
 };
 
+/// Whether the actuator gets more than nothing in a recording.
+bool IsDriven(const Timeline& timeline, Eigen::Index actuator, std::size_t recording) {
+  for (std::size_t k = 0; k < timeline.t_s.size(); ++k) {
+    if (timeline.t_s[k] < timeline.begin_s[recording]) continue;
+    if (timeline.t_s[k] > timeline.end_s[recording]) continue;
+    const double command = timeline.command[k][actuator];
+    if (!std::isnan(command) && command != 0.0) return true;
+  }
+  return false;
+}
+
 template <typename Fault>
 void MakeOfEach(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
   for (const Supplied& chamber : SuppliedChambers(inputs))
@@ -238,19 +232,10 @@ void MakeLeak(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults)
 void MakeBlockedValve(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
   const Timeline& timeline = inputs.observed.timeline;
   for (const Supplied& chamber : SuppliedChambers(inputs)) {
-    double begin_s = -std::numeric_limits<double>::infinity();
     for (std::size_t r = 0; r < timeline.begin_s.size(); ++r) {
-      // Of beginnings between which it is not driven, the last one stands for all.
-      const double end_s = timeline.end_s[r];
-      bool driven = false;
-      for (std::size_t k = 0; k < timeline.t_s.size(); ++k) {
-        if (timeline.t_s[k] < timeline.begin_s[r] || timeline.t_s[k] > end_s) continue;
-        const double thrust_N = timeline.command[k][chamber.actuator];
-        driven = driven || (!std::isnan(thrust_N) && thrust_N != 0.0);
-      }
-      if (!driven) continue;
-      begin_s = timeline.begin_s[r];
-      faults->push_back(std::make_unique<BlockedValve>(chamber, static_cast<int>(r), begin_s));
+      if (!IsDriven(timeline, chamber.actuator, r)) continue;
+      faults->push_back(
+          std::make_unique<BlockedValve>(chamber, static_cast<int>(r), timeline.begin_s[r]));
     }
   }
 }
