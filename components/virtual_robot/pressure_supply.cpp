@@ -38,8 +38,8 @@ PressureSupply::PressureSupply(const std::vector<robot::BodyChamber>& chambers,
       zero_Pa_(Eigen::VectorXd::Zero(std::ssize(chambers))),
       tau_s_(zero_Pa_),
       leak_ratio_(zero_Pa_),
-      blocked_from_s_(Eigen::VectorXd::Constant(std::ssize(chambers),
-                                                std::numeric_limits<double>::infinity())),
+      blocked_from_s_(
+          Eigen::VectorXd::Constant(std::ssize(chambers), std::numeric_limits<double>::infinity())),
       sensor_noise_Pa_(zero_Pa_) {
   std::iota(chamber_of_supply_.begin(), chamber_of_supply_.end(), 0);
   const std::vector<std::string> names = NamesOf(chambers);
@@ -95,8 +95,8 @@ void PressureSupply::Reset(double t_s, const Eigen::VectorXd& command_Pa) {
   proposed_ = now_;
 }
 
-/// tau dp/dt + (1 + ratio) p = u, exactly for u that goes linearly from u0 to u1. A chamber that was
-/// open is at ambient pressure.
+/// tau dp/dt + (1 + ratio) p = u, exactly for u that goes linearly from u0 to u1. A chamber that
+/// was open is at ambient pressure.
 double PressureSupply::Follow(Eigen::Index chamber, double from_Pa, double u0_Pa, double u1_Pa,
                               double h_s) const {
   const double share = 1.0 / (1.0 + leak_ratio_[chamber]);

@@ -14,9 +14,9 @@
 
 namespace palpate::virtual_robot {
 
-/// From the commands to the pressures in the chambers: swapped_tubes, the sensor's pressure_gain and
-/// pressure_zero, then valve and leak, tau dp/dt = u - (1 + ratio) p, blocked_valve. Each is of the
-/// chamber that is fed. A regulator holds the reading of its sensor, before the valve, at the
+/// From the commands to the pressures in the chambers: swapped_tubes, the sensor's pressure_gain
+/// and pressure_zero, then valve and leak, tau dp/dt = u - (1 + ratio) p, blocked_valve. Each is of
+/// the chamber that is fed. A regulator holds the reading of its sensor, before the valve, at the
 /// command u. All pressures are above ambient; NaN: open to the air.
 class PressureSupply {
  public:
@@ -49,11 +49,11 @@ class PressureSupply {
   double Follow(Eigen::Index chamber, double from_Pa, double u0_Pa, double u1_Pa, double h_s) const;
 
   std::vector<int> chamber_of_supply_;
-  Eigen::VectorXd gain_;             ///< [chambers] as all below
+  Eigen::VectorXd gain_;  ///< [chambers] as all below
   Eigen::VectorXd zero_Pa_;
   Eigen::VectorXd tau_s_;
   Eigen::VectorXd leak_ratio_;
-  Eigen::VectorXd blocked_from_s_;   ///< infinity: never
+  Eigen::VectorXd blocked_from_s_;  ///< infinity: never
   Eigen::VectorXd sensor_noise_Pa_;
   Pressures now_;
   Pressures proposed_;

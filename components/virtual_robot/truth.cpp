@@ -60,10 +60,10 @@ void Truth::Update() {
     const double command_Pa = bench_.command_m()[ToIndex(cables) + c];
     const double noise_Pa = bench_.supply().sensor_noise_Pa()[c] * sensor_noise_[At(c)].Normal();
     const int fed = bench_.supply().ChamberOfSupply(c);
-    readings_[cables + At(c)] = std::isnan(command_Pa)
-                                    ? CableReading{kNotDriven, 0.0}
-                                    : CableReading{chambers.Change_m3(fed, bench_.state().x_m),
-                                                   command_Pa + noise_Pa};
+    readings_[cables + At(c)] =
+        std::isnan(command_Pa)
+            ? CableReading{kNotDriven, 0.0}
+            : CableReading{chambers.Change_m3(fed, bench_.state().x_m), command_Pa + noise_Pa};
   }
   for (size_t actuator = 0; actuator < cables; ++actuator) {
     const int cable = bench_.actuators().CableOfActuator(static_cast<int>(actuator));

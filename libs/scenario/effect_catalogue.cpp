@@ -284,7 +284,8 @@ std::vector<EffectKind> CameraEffects() {
 
 std::vector<EffectKind> MakeCatalogue() {
   std::vector<EffectKind> catalogue = MaterialEffects();
-  for (const auto& more : {ShapeEffects(), BaseEffects(), CableEffects(), ChamberEffects(), CameraEffects()}) {
+  for (const auto& more :
+       {ShapeEffects(), BaseEffects(), CableEffects(), ChamberEffects(), CameraEffects()}) {
     catalogue.insert(catalogue.end(), more.begin(), more.end());
   }
   return catalogue;

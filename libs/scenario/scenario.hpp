@@ -49,7 +49,7 @@ struct ChamberSupply {
   std::string chamber;
   double valve_time_constant_s = 0.0;  ///< >= 0, without the leak
   double leak_ratio = 0.0;             ///< >= 0, conductance of the leak over that of the valve
-  double sensor_gain = 0.0;     ///< the supply has (1 + gain) p + zero where its sensor reads p
+  double sensor_gain = 0.0;  ///< the supply has (1 + gain) p + zero where its sensor reads p
   double sensor_zero_Pa = 0.0;
   double sensor_noise_Pa = 0.0;  ///< >= 0, standard deviation of a reading
   SourceLocation location = {};

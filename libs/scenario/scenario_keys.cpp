@@ -147,19 +147,18 @@ const KeyTable& SupplyKeys() {
       .about =
           "Supply of a chamber. A regulator holds the reading of its sensor at the command. A "
           "first-order valve leads to the chamber, which may leak.",
-      .keys = {
-          {"chamber", value::Text(), kRequired, "Chamber of the robot file."},
-          {"valve_time_constant_s", value::Real(kSupplyTime),
-           Default(defaults.valve_time_constant_s),
-           "Time constant of the valve without a leak. 0: no delay."},
-          {"leak_ratio", value::Real(kLeakRatio), Default(defaults.leak_ratio),
-           "Conductance of the chamber's leak over that of its valve."},
-          {"sensor_gain", value::Real(kSensorGain), Default(defaults.sensor_gain),
-           "The supply has (1 + this) times the pressure that the sensor reads,"},
-          {"sensor_zero_Pa", value::Real(kSensorZero), Default(defaults.sensor_zero_Pa),
-           "and so much more."},
-          {"sensor_noise_Pa", value::Real(kNonNegative), Default(defaults.sensor_noise_Pa),
-           "Standard deviation of a reading."}}};
+      .keys = {{"chamber", value::Text(), kRequired, "Chamber of the robot file."},
+               {"valve_time_constant_s", value::Real(kSupplyTime),
+                Default(defaults.valve_time_constant_s),
+                "Time constant of the valve without a leak. 0: no delay."},
+               {"leak_ratio", value::Real(kLeakRatio), Default(defaults.leak_ratio),
+                "Conductance of the chamber's leak over that of its valve."},
+               {"sensor_gain", value::Real(kSensorGain), Default(defaults.sensor_gain),
+                "The supply has (1 + this) times the pressure that the sensor reads,"},
+               {"sensor_zero_Pa", value::Real(kSensorZero), Default(defaults.sensor_zero_Pa),
+                "and so much more."},
+               {"sensor_noise_Pa", value::Real(kNonNegative), Default(defaults.sensor_noise_Pa),
+                "Standard deviation of a reading."}}};
   return keys;
 }
 

@@ -104,9 +104,8 @@ struct Drives {
   /// "cables", "chambers" or "actuators": what the driven ones are.
   std::string Plural() const { return Singular() + "s"; }
   std::string Singular() const {
-    const bool cables = std::any_of(driven.begin(), driven.end(), [&](int c) {
-      return !actuators[palpate::At(c)].IsChamber();
-    });
+    const bool cables = std::any_of(driven.begin(), driven.end(),
+                                    [&](int c) { return !actuators[palpate::At(c)].IsChamber(); });
     return !HasChambers() ? "cable" : cables ? "actuator" : "chamber";
   }
 
@@ -182,27 +181,26 @@ class Script {
 void AddPulls(const Drives& drives, std::vector<Proposal>* proposals) {
   for (const int c : drives.driven) {
     const std::string name = drives.Title(c);
-    proposals->push_back(Script(drives)
-                             .To({c}, kFarther, kRamp_s)
-                             .Stay(kDwell_s)
-                             .To({c}, 0.0, kRamp_s)
-                             .Finish(RecordingKind::kRamp,
-                                     "ramp of " + name + " to " + drives.Text(c, kFarther)));
     proposals->push_back(
         Script(drives)
-            .To({c}, 1.0, kDwell_s)
-            .Stay(kHold_s)
-            .To({c}, 0.0, kDwell_s)
-            .Finish(RecordingKind::kHold,
-                    name + " held at " + drives.Text(c, 1.0) + " for a minute"));
+            .To({c}, kFarther, kRamp_s)
+            .Stay(kDwell_s)
+            .To({c}, 0.0, kRamp_s)
+            .Finish(RecordingKind::kRamp, "ramp of " + name + " to " + drives.Text(c, kFarther)));
+    proposals->push_back(Script(drives)
+                             .To({c}, 1.0, kDwell_s)
+                             .Stay(kHold_s)
+                             .To({c}, 0.0, kDwell_s)
+                             .Finish(RecordingKind::kHold,
+                                     name + " held at " + drives.Text(c, 1.0) + " for a minute"));
   }
   if (drives.driven.empty()) return;
   Script fast(drives);
   for (const int c : drives.driven) fast.To({c}, 1.0, kFastRamp_s).To({c}, 0.0, kFastRamp_s);
-  proposals->push_back(fast.Finish(RecordingKind::kSecondSpeed,
-                                   "each " + drives.Singular() + " to " + drives.Text(drives.driven.front(), 1.0) +
-                                       " and back within " + FormatNumber(2.0 * kFastRamp_s) +
-                                       " s, one after the other"));
+  proposals->push_back(fast.Finish(
+      RecordingKind::kSecondSpeed,
+      "each " + drives.Singular() + " to " + drives.Text(drives.driven.front(), 1.0) +
+          " and back within " + FormatNumber(2.0 * kFastRamp_s) + " s, one after the other"));
 }
 
 /// "cables north and south".
@@ -226,8 +224,7 @@ void AddCoContractions(const Drives& drives, std::vector<Proposal>* proposals) {
   int pairs = 0;
   for (std::size_t a = 0; a < driven.size() && driven.size() > 2; ++a) {
     for (std::size_t b = a + 1; b < driven.size() && pairs < kMostPairs; ++b, ++pairs) {
-      together({driven[a], driven[b]},
-               PairTitle(drives, driven[a], driven[b]));
+      together({driven[a], driven[b]}, PairTitle(drives, driven[a], driven[b]));
     }
   }
   if (driven.size() > 1) together(driven, "all " + drives.Plural());
@@ -303,11 +300,9 @@ void AddTilts(const Drives& drives, std::vector<Proposal>* proposals) {
     }
     Proposal proposal = script.Finish(RecordingKind::kBaseTilted, "");
     const ByHand tilted = Tilt(axis, &proposal);
-    const std::string moved = drives.HasChambers()
-                                  ? "one " + drives.Singular() + " actuated"
-                                  : "a cable pulled";
-    proposal.title =
-        tilted.title + (drives.driven.empty() ? "" : ", at rest and with " + moved);
+    const std::string moved =
+        drives.HasChambers() ? "one " + drives.Singular() + " actuated" : "a cable pulled";
+    proposal.title = tilted.title + (drives.driven.empty() ? "" : ", at rest and with " + moved);
     proposal.by_hand = tilted.words + kBefore;
     proposals->push_back(std::move(proposal));
   }

@@ -179,9 +179,8 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
   for (std::size_t a = 0; a < observed.timeline.actuators.size(); ++a) {
     const robot::ActuatorTraits& actuator = observed.timeline.actuators[a];
     result->cables.push_back(actuator.Title());
-    result->cable_units.emplace_back(observed.timeline.by_tension[a]
-                                         ? actuator.force_unit()
-                                         : actuator.displacement_unit());
+    result->cable_units.emplace_back(
+        observed.timeline.by_tension[a] ? actuator.force_unit() : actuator.displacement_unit());
   }
   result->markers = observed.markers;
   result->marker_rest_m.resize(3, std::ssize(body.markers) + observed.feature_rest_m.cols());

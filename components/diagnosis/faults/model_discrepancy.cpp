@@ -56,8 +56,9 @@ class ActuatorDiscrepancy final : public Discrepancy {
  public:
   ActuatorDiscrepancy(const robot::ActuatorTraits& actuator, Eigen::VectorXd change,
                       std::shared_ptr<const PostureFunctions> functions)
-      : Discrepancy({(actuator.IsChamber() ? "chamber:" : "cable:") + actuator.name}, "how far " + actuator.Title() + " bends the body",
-                    std::move(functions), DiscrepancyGroup::kCables),
+      : Discrepancy({(actuator.IsChamber() ? "chamber:" : "cable:") + actuator.name},
+                    "how far " + actuator.Title() + " bends the body", std::move(functions),
+                    DiscrepancyGroup::kCables),
         change_(std::move(change)) {}
 
  private:

@@ -37,13 +37,9 @@ std::vector<Supplied> SuppliedChambers(const CatalogueInputs& inputs) {
 class PressureGainFault final : public FaultModel {
  public:
   explicit PressureGainFault(const Supplied& at)
-      : FaultModel(at.Named("pressure_gain"),
-                   "gain of the pressure sensor of chamber " + at.chamber.name,
-                   {{.name = "g",
-                     .tolerance = 0.01,
-                     .fault = 0.1,
-                     .least = -0.9,
-                     .plausible = 0.5}}),
+      : FaultModel(
+            at.Named("pressure_gain"), "gain of the pressure sensor of chamber " + at.chamber.name,
+            {{.name = "g", .tolerance = 0.01, .fault = 0.1, .least = -0.9, .plausible = 0.5}}),
         actuator_(at.actuator) {}
 
   bool OnActuators() const override { return true; }
@@ -117,8 +113,9 @@ class Leak final : public FaultModel {
 class BlockedValve final : public FaultModel {
  public:
   BlockedValve(const Supplied& at, int recording, double from_s)
-      : FaultModel(at.Named("blocked_valve"), "blocked valve of chamber " + at.chamber.name,
-                   {{.name = "blocked", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
+      : FaultModel(
+            at.Named("blocked_valve"), "blocked valve of chamber " + at.chamber.name,
+            {{.name = "blocked", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
         actuator_(at.actuator),
         recording_(recording),
         from_s_(from_s) {}

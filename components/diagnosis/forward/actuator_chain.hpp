@@ -16,9 +16,9 @@ struct ActuatorSettings {
   explicit ActuatorSettings(int actuators);
 
   Eigen::MatrixXd mixing;  ///< [square] what share of each one's command (column) an actuator gets
-  double delay_s = 0.0;      ///< of cables, as the next
-  double tau_s = 0.0;        ///< of a first order, after the delay
-  Eigen::VectorXd gain;      ///< [actuators] g: takes in, or presses with, 1 + g times as much
+  double delay_s = 0.0;    ///< of cables, as the next
+  double tau_s = 0.0;      ///< of a first order, after the delay
+  Eigen::VectorXd gain;    ///< [actuators] g: takes in, or presses with, 1 + g times as much
   Eigen::VectorXd offset_m;  ///< [actuators] of cables: takes in so much more
   Eigen::VectorXd play_m;    ///< [actuators] of cables: full width
   // Of chambers that are commanded by pressure, [actuators] each:
@@ -49,8 +49,8 @@ class ActuatorChain {
   /// `observed` must outlive it.
   explicit ActuatorChain(const ObservedExperiment& observed);
 
-  /// [actuators x samples] what the actuators take in, m, or pull or press with, N: mean over the frames of
-  /// each sample; NaN: not driven.
+  /// [actuators x samples] what the actuators take in, m, or pull or press with, N: mean over the
+  /// frames of each sample; NaN: not driven.
   Eigen::MatrixXd At(const ActuatorSettings& settings) const;
   /// [samples] parts in order of time: one of a sample in which nothing is moved, up to five of a
   /// motion, in which a cable may get taut.

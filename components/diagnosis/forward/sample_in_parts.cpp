@@ -62,7 +62,8 @@ class SampleInParts {
       if (TellsAnEnd(k)) of_part[k] = solver_.HistoryInputAt(past_, solved);
       if (k == 0) mean_m = Eigen::VectorXd::Zero(solved.seen_m.size());
       mean_m += parts_[k].share * solved.seen_m;
-      by_what_holds[WhatHolds(solved.middle, Cables())].emplace_back(solved.middle).share = parts_[k].share;
+      by_what_holds[WhatHolds(solved.middle, Cables())].emplace_back(solved.middle).share =
+          parts_[k].share;
     }
     simulated->bend_m = mean_m - simulated->seen_m;
     simulated->seen_m = std::move(mean_m);

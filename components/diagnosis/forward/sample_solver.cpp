@@ -88,9 +88,9 @@ std::vector<robot::ActuatorCommand> SampleSolver::Commands(const Eigen::VectorXd
     if (std::isnan(taken_in[c])) continue;
     commands[cable] =
         observed_.timeline.by_tension[cable]
-            ? robot::ActuatorCommand{Kind::kTension, std::max(model_.traits(static_cast<int>(c))
-                                                                  .least_force_N,
-                                                              taken_in[c])}
+            ? robot::ActuatorCommand{Kind::kTension,
+                                     std::max(model_.traits(static_cast<int>(c)).least_force_N,
+                                              taken_in[c])}
             : robot::ActuatorCommand{Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
   }
   return commands;
