@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "components/diagnosis/design/places_to_hang.hpp"
 #include "libs/core/index.hpp"
@@ -245,6 +246,18 @@ void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
                                    "all cables let out by " + drives.Text(by_length.front(), 1.0)));
 }
 
+/// What the sensors of chambers read as zero shows where these are open.
+void AddVenting(const Drives& drives, std::vector<Proposal>* proposals) {
+  if (!drives.HasChambers()) return;
+  Proposal open = Script(drives).Stay(kHang_s).Finish(RecordingKind::kRest,
+                                                      "chambers open to the air, at rest");
+  std::optional<experiment::Actuation>& actuation = open.recording.actuation;
+  std::erase_if(actuation->columns, [](const auto& column) { return column.of_chamber; });
+  if (actuation->columns.empty()) actuation.reset();
+  open.by_hand = "take the tubes off the chambers before the recording begins";
+  proposals->push_back(std::move(open));
+}
+
 /// As a title, and as an instruction to a person.
 struct ByHand {
   std::string title;
@@ -333,6 +346,7 @@ std::vector<Proposal> BenchProposals(const robot::RobotBody& body,
   AddPulls(drives, &proposals);
   AddCoContractions(drives, &proposals);
   AddSlackening(drives, &proposals);
+  AddVenting(drives, &proposals);
   AddWeights(body, drives, &proposals);
   if (!body.gravity_m_s2.isZero()) AddTilts(drives, &proposals);
   AddTiltedWeights(body, drives, &proposals);

@@ -182,7 +182,7 @@ const std::vector<MenuItem>& ChamberMenu() {
   static const std::vector<MenuItem> menu = {
       {"leak",
        [](Random* r, R) -> Parameters {
-         return {{"ratio", Logarithmic(r, 0.08, 0.4)}};
+         return {{"ratio", Logarithmic(r, 0.25, 0.6)}};
        }},
       {"slow_valve",
        [](Random* r, R) -> Parameters {
@@ -196,17 +196,17 @@ const std::vector<MenuItem>& ChamberMenu() {
        }},
       {"pressure_gain",
        [](Random* r, R) -> Parameters {
-         return {{"g", Signed(r, 0.07, 0.25)}};
+         return {{"g", Signed(r, 0.2, 0.35)}};
        }},
       {"pressure_zero",
        [](Random* r, R robot) -> Parameters {
          const double limit_Pa = LeastOfLimits_Pa(robot);
-         return {{"zero_Pa", Signed(r, 0.025 * limit_Pa, 0.1 * limit_Pa)}};
+         return {{"zero_Pa", Signed(r, 0.04 * limit_Pa, 0.1 * limit_Pa)}};
        }},
       {"swapped_tubes", [](Random*, R) -> Parameters { return {}; }},
       {"thin_wall",
        [](Random* r, R) -> Parameters {
-         return {{"thinner_m", Logarithmic(r, 5e-4, 1.2e-3)}};
+         return {{"thinner_m", Logarithmic(r, 7e-4, 1.2e-3)}};
        }},
   };
   return menu;
