@@ -23,7 +23,12 @@ PressureSupply SupplyOf(const scenario::ChamberSupply& first, const Effects& eff
   chambers[1].name = "base";
   scenario::Scenario scenario = PlainScenario();
   scenario.rest_between_s = 1.0;
-  scenario.recordings = {{.name = "a", .duration_s = 2.0}, {.name = "b", .duration_s = 2.0}};
+  scenario.recordings.clear();
+  for (const char* name : {"a", "b"}) {
+    scenario::RecordingPlan& plan = scenario.recordings.emplace_back();
+    plan.name = name;
+    plan.duration_s = 2.0;
+  }
   scenario.supply = {first};
   return {chambers, scenario, effects};
 }
