@@ -86,12 +86,17 @@ std::vector<robot::ActuatorCommand> SampleSolver::Commands(const Eigen::VectorXd
   for (Eigen::Index c = 0; c < taken_in.size(); ++c) {
     const auto cable = static_cast<std::size_t>(c);
     if (std::isnan(taken_in[c])) continue;
-    commands[cable] =
-        observed_.timeline.by_tension[cable]
-            ? robot::ActuatorCommand{Kind::kTension,
-                                     std::max(model_.traits(static_cast<int>(c)).least_force_N,
-                                              taken_in[c])}
-            : robot::ActuatorCommand{Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
+    if (!observed_.timeline.by_tension[cable]) {
+      commands[cable] = {Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
+      continue;
+    }
+    double force_N = taken_in[c];
+    // A chamber of another size has another piston at the same pressure.
+    if (const int chamber = static_cast<int>(c) - model_.CableCount(); chamber >= 0) {
+      force_N *= model_.chamber(chamber).area_m2() / observed_.timeline.actuators[cable].area_m2;
+    }
+    const double least_N = model_.traits(static_cast<int>(c)).least_force_N;
+    commands[cable] = {Kind::kTension, std::max(least_N, force_N)};
   }
   return commands;
 }
