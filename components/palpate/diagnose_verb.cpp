@@ -273,11 +273,6 @@ int Diagnose(const DiagnoseOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
-  if (!robot.chambers.empty()) {
-    throw InputError(robot.chambers.front().where,
-                     "palpate diagnose knows the causes of cables, not those of chambers: a robot "
-                     "with chambers can be simulated, solved and estimated, but not diagnosed");
-  }
   std::optional<EndOnSignal> end_on_signal;
   end_on_signal.emplace("palpate diagnose", "nothing was written");
   const DataFolder data(options.data, options.remap);

@@ -64,6 +64,7 @@ Bench::Bench(const robot::RobotDescription& robot, const scenario::Scenario& sce
       softening_(body_, effects, Duration_s(scenario)),
       base_(body_, effects),
       actuators_(body_.cables, effects),
+      supply_(body_.chambers, scenario, effects),
       cables_(body_, effects),
       chambers_(body_),
       surface_(body_.mesh, body_.boundary, body_.fixed),
@@ -86,7 +87,8 @@ void Bench::ForgetHistory() {
   base_.Reset();
   cables_.Reset();
   cables_.Evaluate(state_.x_m);
-  chambers_.SetPressures(OfChambers(now_.command_m));
+  supply_.Reset(time_s_, OfChambers(now_.command_m));
+  chambers_.SetPressures(supply_.pressure_Pa());
   for (Contact& contact : contacts_) contact.Reset();
   viscosity_.Reset(body_.materials, softening_.factor_of_cell(), state_.x_m);
   softening_.Reset(&elastic_, state_.x_m);
@@ -119,7 +121,7 @@ void Bench::PlaceTools(const BenchInputs& inputs) {
 
 Status Bench::Balance(const BenchInputs& inputs, double share) {
   cables_.SetPulledIn(share * actuators_.pulled_in_m());
-  chambers_.SetPressures(share * OfChambers(inputs.command_m));
+  chambers_.SetPressures(share * supply_.pressure_Pa());
   StepTask task{TimeScheme::QuasiStatic(1.0), share * inputs.load_N, state_.x_m};
   base_.Apply(&task.start_m);
   const Eigen::VectorXd tension_N = cables_.tension_N();
@@ -187,6 +189,7 @@ Status Bench::Start(double t_s, const Inputs& inputs) {
   point_loads_ = loads_.PointLoads(inputs.weights, inputs.base_tilt_deg);
   const BenchInputs first = Prepare(inputs, point_loads_);
   actuators_.Reset(t_s, OfCables(first.command_m));
+  supply_.Reset(t_s, OfChambers(first.command_m));
   PlaceTools(first);
   cables_.SetFrictionless(true);
   for (Contact& contact : contacts_) contact.SetFrictionless(true);
@@ -264,7 +267,9 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
   const double balance_s = task.scheme.balance_s();
   actuators_.Propose(t_s, OfCables(inputs.command_m));
   cables_.SetPulledIn(actuators_.pulled_in_m());
-  chambers_.SetPressures(OfChambers(inputs.command_m));
+  const Eigen::VectorXd pressure_Pa = chambers_.pressure_Pa();
+  supply_.Propose(t_s, OfChambers(inputs.command_m));
+  chambers_.SetPressures(supply_.pressure_Pa());
   PlaceTools(inputs);
   viscosity_.Prepare(balance_s);
   task.load_N = now_.load_N + balance_s / h_s * (inputs.load_N - now_.load_N);
@@ -288,7 +293,7 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
     softening_.Restore(&elastic_);
     cables_.SetTensions(tension_N);
     cables_.Evaluate(state_.x_m);
-    chambers_.SetPressures(OfChambers(now_.command_m));
+    chambers_.SetPressures(pressure_Pa);
     PlaceTools(now_);
     for (Contact& contact : contacts_) contact.Evaluate(surface_, state_.x_m);
     return status;
@@ -313,6 +318,7 @@ Status Bench::FollowSoftening(StepTask* task) {
 
 void Bench::Commit(double t_s, const BenchInputs& inputs, double h_s) {
   actuators_.Commit();
+  supply_.Commit();
   cables_.Commit();
   for (Contact& contact : contacts_) contact.Commit(next_.x_m);
   viscosity_.Advance(body_.materials, softening_.factor_of_cell(), next_.x_m, h_s);

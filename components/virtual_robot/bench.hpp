@@ -11,6 +11,7 @@
 #include "components/virtual_robot/bench_inputs.hpp"
 #include "components/virtual_robot/compliant_base.hpp"
 #include "components/virtual_robot/external_loads.hpp"
+#include "components/virtual_robot/pressure_supply.hpp"
 #include "components/virtual_robot/softening.hpp"
 #include "components/virtual_robot/step_solver.hpp"
 #include "libs/fem/viscosity.hpp"
@@ -44,6 +45,7 @@ class Bench {
   const CableSystem& cable_system() const { return cables_; }
   const ChamberSystem& chamber_system() const { return chambers_; }
   const ActuatorChain& actuators() const { return actuators_; }
+  const PressureSupply& supply() const { return supply_; }
   const ContactSurface& surface() const { return surface_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// [cables, then chambers] m, Pa
@@ -90,6 +92,7 @@ class Bench {
   Softening softening_;
   CompliantBase base_;
   ActuatorChain actuators_;
+  PressureSupply supply_;
   CableSystem cables_;
   ChamberSystem chambers_;
   ContactSurface surface_;

@@ -11,7 +11,8 @@
 
 namespace palpate::virtual_robot {
 
-/// The chambers of the body, each under the pressure of a regulator that holds it.
+/// The chambers of the body, each under the pressure that its supply gives it
+/// (pressure_supply.hpp).
 class ChamberSystem {
  public:
   explicit ChamberSystem(const BenchBody& body);

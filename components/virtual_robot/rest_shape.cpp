@@ -6,8 +6,10 @@
 #include <Eigen/Geometry>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/node_matrix.hpp"
+#include "libs/robot/wall_thinning.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -62,6 +64,14 @@ void Twist(const scenario::ActiveEffect& effect, BenchBody* body) {
   }
 }
 
+void Thin(const scenario::ActiveEffect& effect, BenchBody* body) {
+  std::vector<std::string> names;
+  for (const robot::BodyChamber& chamber : body->chambers) names.push_back(chamber.name);
+  const robot::BodyChamber& chamber = body->chambers[At(PlaceOf(effect, "chamber", names))];
+  const Eigen::VectorXd mode_m = robot::WallThinning(body->nominal, body->boundary, chamber.wall);
+  body->mesh.nodes_m += Value(effect, "thinner_m") * mode_m.reshaped(3, body->mesh.NodeCount());
+}
+
 void Set(const scenario::ActiveEffect& effect, BenchBody* body) {
   const double tip_m = Value(effect, "tip_m");
   if (tip_m != 0.0) body->mesh.nodes_m += tip_m * LowestMode(*body);
@@ -84,6 +94,7 @@ BodyAxis FindBodyAxis(const fem::TetMesh& mesh, const fem::FixedDirections& fixe
 }
 
 void ApplyRestShapeEffects(const Effects& effects, BenchBody* body) {
+  for (const auto* effect : OfKind(effects, "thin_wall")) Thin(*effect, body);
   for (const auto* effect : OfKind(effects, "geometry_scale")) Scale(*effect, body);
   for (const auto* effect : OfKind(effects, "rest_twist")) Twist(*effect, body);
   body->assembled_m = body->rest_m();

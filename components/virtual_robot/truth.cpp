@@ -15,6 +15,8 @@ namespace palpate::virtual_robot {
 
 namespace {
 
+constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
+
 /// In [0, 1), the same on every machine.
 double Uniform(std::mt19937_64* engine) {
   return static_cast<double>((*engine)() >> 11U) * 0x1.0p-53;
@@ -34,6 +36,8 @@ Truth::Truth(const Bench& bench, const Effects& effects, std::uint64_t seed)
       rest_surface_(fem::RestSurface(bench.body().mesh, bench.body().boundary)),
       readings_(static_cast<size_t>(bench.cable_system().CableCount() +
                                     bench.chamber_system().ChamberCount())) {
+  for (const robot::BodyChamber& chamber : bench.body().chambers)
+    sensor_noise_.emplace_back(seed, "pressure sensor " + chamber.name);
   for (const robot::BodyMarker& marker : bench.body().markers) {
     markers_.push_back(marker.point.weights);
   }
@@ -53,10 +57,13 @@ void Truth::Update() {
   const ChamberSystem& chambers = bench_.chamber_system();
   const auto cables = At(bench_.cable_system().CableCount());
   for (int c = 0; c < chambers.ChamberCount(); ++c) {
-    const bool driven = !std::isnan(bench_.command_m()[ToIndex(cables) + c]);
-    readings_[cables + At(c)] = {driven ? chambers.Change_m3(c, bench_.state().x_m)
-                                        : std::numeric_limits<double>::quiet_NaN(),
-                                 chambers.pressure_Pa()[c]};
+    const double command_Pa = bench_.command_m()[ToIndex(cables) + c];
+    const double noise_Pa = bench_.supply().sensor_noise_Pa()[c] * sensor_noise_[At(c)].Normal();
+    const int fed = bench_.supply().ChamberOfSupply(c);
+    readings_[cables + At(c)] =
+        std::isnan(command_Pa)
+            ? CableReading{kNotDriven, 0.0}
+            : CableReading{chambers.Change_m3(fed, bench_.state().x_m), command_Pa + noise_Pa};
   }
   for (size_t actuator = 0; actuator < cables; ++actuator) {
     const int cable = bench_.actuators().CableOfActuator(static_cast<int>(actuator));

@@ -11,6 +11,7 @@
 #include "components/virtual_robot/virtual_robot.hpp"
 #include "libs/fem/interpolation_weights.hpp"
 #include "libs/geometry/closest_point.hpp"
+#include "libs/scenario/random.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -18,7 +19,7 @@ namespace palpate::virtual_robot {
 class Truth {
  public:
   /// Each marker_misplacement moves its marker by `d_m` on the body, in a direction that the seed
-  /// draws. `bench` must outlive this.
+  /// draws, as it does the noise of the pressure sensors. `bench` must outlive this.
   Truth(const Bench& bench, const Effects& effects, std::uint64_t seed);
 
   /// After the bench has moved.
@@ -32,6 +33,7 @@ class Truth {
   geometry::SurfaceIndex rest_surface_;
   std::vector<fem::InterpolationWeights> markers_;
   std::vector<CableReading> readings_;
+  std::vector<scenario::Random> sensor_noise_;  ///< [chambers]
 };
 
 }  // namespace palpate::virtual_robot

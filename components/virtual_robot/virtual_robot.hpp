@@ -27,7 +27,8 @@ using Inputs = scenario::BenchInputs;
 struct CableReading {
   /// At the actuator, as it reads; of a chamber its change of volume, m3 (NaN: it is not driven).
   double displacement_m = 0.0;
-  double tension_N = 0.0;  ///< at the actuator; of a chamber its pressure above ambient, Pa
+  /// At the actuator; of a chamber the pressure above ambient that its sensor reads, Pa.
+  double tension_N = 0.0;
 };
 
 /// A force on the robot that an estimator is to find.

@@ -31,51 +31,62 @@ const KeyTable& DepthNoiseKeys() {
   return keys;
 }
 
+/// Of the catalogue of diagnosis.
+constexpr const char* kCauses[] = {
+    "youngs_modulus",
+    "regional_stiffness",
+    "poissons_ratio",
+    "stiffening",
+    "density",
+    "viscoelastic_creep",
+    "mullins",
+    "plastic_set",
+    "geometry_scale",
+    "temperature",
+    "rest_twist",
+    "base_compliance",
+    "gravity_direction",
+    "payload",
+    "permanent_force",
+    "hidden_obstacle",
+    "cable_friction",
+    "cable_elasticity",
+    "cable_cutting",
+    "cable_gain",
+    "cable_offset",
+    "backlash",
+    "cable_routing",
+    "swapped_cables",
+    "drive_coupling",
+    "lag",
+    "leak",
+    "slow_valve",
+    "blocked_valve",
+    "pressure_gain",
+    "pressure_zero",
+    "swapped_tubes",
+    "thin_wall",
+    "camera_moved",
+    "depth_scale",
+    "depth_incidence_bias",
+    "intrinsics",
+    "lens_distortion",
+    "flying_pixels",
+    "warm_up_drift",
+    "marker_misplacement",
+    "discretisation",
+};
+
 /// The causes of the catalogue of diagnosis, and the tolerances that belong to no single cause.
 const KeyTable& ToleranceKeys() {
   static const KeyTable keys = [] {
-    const std::vector<std::string> causes = {"youngs_modulus",
-                                             "regional_stiffness",
-                                             "poissons_ratio",
-                                             "stiffening",
-                                             "density",
-                                             "viscoelastic_creep",
-                                             "mullins",
-                                             "plastic_set",
-                                             "geometry_scale",
-                                             "temperature",
-                                             "rest_twist",
-                                             "base_compliance",
-                                             "gravity_direction",
-                                             "payload",
-                                             "permanent_force",
-                                             "hidden_obstacle",
-                                             "cable_friction",
-                                             "cable_elasticity",
-                                             "cable_cutting",
-                                             "cable_gain",
-                                             "cable_offset",
-                                             "backlash",
-                                             "cable_routing",
-                                             "swapped_cables",
-                                             "drive_coupling",
-                                             "lag",
-                                             "camera_moved",
-                                             "depth_scale",
-                                             "depth_incidence_bias",
-                                             "intrinsics",
-                                             "lens_distortion",
-                                             "flying_pixels",
-                                             "warm_up_drift",
-                                             "marker_misplacement",
-                                             "discretisation"};
     KeyTable table{
         .title = "tolerances",
         .about =
             "Manufacturing tolerances (one standard deviation) that replace those of the "
             "catalogue of diagnosis. A value is for the first parameter of the cause that has a "
             "tolerance, in its unit; the other tolerances of the cause change in proportion."};
-    for (const std::string& cause : causes) {
+    for (const char* cause : kCauses) {
       table.keys.push_back(
           {cause, value::Real(kPositive), kOptional, "Tolerance of the cause of this name."});
     }

@@ -19,7 +19,17 @@ namespace palpate::scenario {
 enum class Side { kBody, kBase, kActuator, kCamera };
 
 /// Parts of the robot that `where` can name.
-enum class Place { kBody, kBase, kCamera, kRegion, kCable, kTwoCables, kMarker };
+enum class Place {
+  kBody,
+  kBase,
+  kCamera,
+  kRegion,
+  kCable,
+  kTwoCables,
+  kChamber,
+  kTwoChambers,
+  kMarker
+};
 
 /// One parameter of an effect, with the name and unit of verdict.json.
 struct EffectParameter {

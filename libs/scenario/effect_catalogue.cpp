@@ -188,6 +188,46 @@ std::vector<EffectKind> CableEffects() {
   };
 }
 
+/// Of the supply of a chamber in this order (components/virtual_robot/pressure_supply.hpp), and of
+/// its wall.
+std::vector<EffectKind> ChamberEffects() {
+  using enum Place;
+  const Side drive = Side::kActuator;
+  return {
+      {"swapped_tubes", drive, kTwoChambers, {}, "the tubes of two chambers are exchanged"},
+      {"pressure_gain",
+       drive,
+       kChamber,
+       {{"g", 0.0, 0.01, -0.5, 0.5}},
+       "the supply has (1 + g) times the pressure that its sensor reads"},
+      {"pressure_zero",
+       drive,
+       kChamber,
+       {{"zero_Pa", 0.0, 100.0, -50e3, 50e3}},
+       "the supply has this pressure where its sensor reads zero"},
+      {"slow_valve",
+       drive,
+       kChamber,
+       {{"tau_s", 0.0, 0.01, 0.0, 100.0}},
+       "the valve's time constant is longer by this"},
+      {"leak",
+       drive,
+       kChamber,
+       {{"ratio", 0.0, 0.0, 0.0, 10.0}},
+       "the chamber leaks; conductance of the leak over that of the valve"},
+      {"blocked_valve",
+       drive,
+       kChamber,
+       {{.name = "from_recording", .max = 1e6, .whole = true}},
+       "from this recording on (the first is 0) the chamber keeps its pressure"},
+      {"thin_wall",
+       Side::kBody,
+       kChamber,
+       {{"thinner_m", 0.0, 1e-4, -0.005, 0.005}},
+       "the wall of the chamber is thinner than drawn by this, at the side of the chamber"},
+  };
+}
+
 std::vector<EffectKind> CameraEffects() {
   using enum Place;
   const Side camera = Side::kCamera;
@@ -244,7 +284,8 @@ std::vector<EffectKind> CameraEffects() {
 
 std::vector<EffectKind> MakeCatalogue() {
   std::vector<EffectKind> catalogue = MaterialEffects();
-  for (const auto& more : {ShapeEffects(), BaseEffects(), CableEffects(), CameraEffects()}) {
+  for (const auto& more :
+       {ShapeEffects(), BaseEffects(), CableEffects(), ChamberEffects(), CameraEffects()}) {
     catalogue.insert(catalogue.end(), more.begin(), more.end());
   }
   return catalogue;

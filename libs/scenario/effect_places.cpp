@@ -17,20 +17,23 @@ std::vector<Where> Each(const std::string& prefix, const std::vector<std::string
   return places;
 }
 
-/// Of an effect on two cables either of which may come first.
+/// Of an effect on two actuators either of which may come first.
 bool IsSymmetric(const EffectKind& kind) { return kind.parameters.empty(); }
 
-std::vector<Where> Pairs(const EffectKind& kind, const std::vector<std::string>& cables) {
+std::vector<Where> Pairs(const EffectKind& kind, const std::string& prefix,
+                         const std::vector<std::string>& names) {
   std::vector<Where> pairs;
-  for (std::size_t a = 0; a < cables.size(); ++a) {
-    for (std::size_t b = IsSymmetric(kind) ? a + 1 : 0; b < cables.size(); ++b) {
-      if (a != b) pairs.push_back({"cable:" + cables[a], "cable:" + cables[b]});
+  for (std::size_t a = 0; a < names.size(); ++a) {
+    for (std::size_t b = IsSymmetric(kind) ? a + 1 : 0; b < names.size(); ++b) {
+      if (a != b) pairs.push_back({prefix + names[a], prefix + names[b]});
     }
   }
   return pairs;
 }
 
 }  // namespace
+
+bool IsOfTwo(Place place) { return place == Place::kTwoCables || place == Place::kTwoChambers; }
 
 std::string DescribePlace(Place place) {
   switch (place) {
@@ -40,6 +43,8 @@ std::string DescribePlace(Place place) {
     case Place::kRegion: return "region:<name>";
     case Place::kCable: return "cable:<name>";
     case Place::kTwoCables: return "[cable:<name>, cable:<another name>]";
+    case Place::kChamber: return "chamber:<name>";
+    case Place::kTwoChambers: return "[chamber:<name>, chamber:<another name>]";
     case Place::kMarker: return "marker:<name>";
   }
   return {};
@@ -53,7 +58,9 @@ std::vector<Where> PlacesOn(const EffectKind& kind, const RobotNames& robot) {
     case Place::kRegion: return Each("region:", robot.regions);
     case Place::kCable: return Each("cable:", robot.cables);
     case Place::kMarker: return Each("marker:", robot.markers);
-    case Place::kTwoCables: return Pairs(kind, robot.cables);
+    case Place::kTwoCables: return Pairs(kind, "cable:", robot.cables);
+    case Place::kChamber: return Each("chamber:", robot.chambers);
+    case Place::kTwoChambers: return Pairs(kind, "chamber:", robot.chambers);
   }
   return {};
 }

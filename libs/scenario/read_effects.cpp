@@ -39,14 +39,16 @@ Where ReadNames(const ConfigNode& node) {
 
 /// "cable:" of "cable:<name>"; all of "body".
 std::string PrefixOf(Place place) {
-  const std::string pattern = DescribePlace(place == Place::kTwoCables ? Place::kCable : place);
+  if (place == Place::kTwoCables) return PrefixOf(Place::kCable);
+  if (place == Place::kTwoChambers) return PrefixOf(Place::kChamber);
+  const std::string pattern = DescribePlace(place);
   return pattern.substr(0, pattern.find('<'));
 }
 
 Where ReadPlace(const ConfigNode& node, const EffectKind& kind) {
   const Where names = ReadNames(node);
   const std::string prefix = PrefixOf(kind.place);
-  const std::size_t count = kind.place == Place::kTwoCables ? 2 : 1;
+  const std::size_t count = IsOfTwo(kind.place) ? 2 : 1;
   const bool named = prefix.ends_with(':');
   const bool fits = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
     return named ? name.starts_with(prefix) && name.size() > prefix.size() : name == prefix;

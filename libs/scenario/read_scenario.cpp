@@ -71,6 +71,28 @@ Motion ReadMotion(const ConfigNode& node) {
   return motion;
 }
 
+std::vector<ChamberSupply> ReadSupplies(const ConfigNode& node) {
+  std::vector<ChamberSupply> supplies;
+  for (const ConfigNode& item : ReadList(node, "{chamber, ...}")) {
+    MapReader reader(item, SupplyKeys());
+    ChamberSupply supply;
+    supply.location = item.where;
+    reader.Read("chamber", &supply.chamber);
+    reader.Read("valve_time_constant_s", &supply.valve_time_constant_s);
+    reader.Read("leak_ratio", &supply.leak_ratio);
+    reader.Read("sensor_gain", &supply.sensor_gain);
+    reader.Read("sensor_zero_Pa", &supply.sensor_zero_Pa);
+    reader.Read("sensor_noise_Pa", &supply.sensor_noise_Pa);
+    reader.Finish();
+    for (const ChamberSupply& other : supplies) {
+      if (other.chamber == supply.chamber)
+        Refuse(item, "a second supply of the chamber '" + supply.chamber + "'");
+    }
+    supplies.push_back(std::move(supply));
+  }
+  return supplies;
+}
+
 /// `camera`: whether the scenario has one.
 MarkerSpec ReadMarkers(const ConfigNode& node, bool camera) {
   MapReader reader(node, MarkerSpecKeys());
@@ -124,6 +146,7 @@ Scenario ReadScenario(const fs::path& file, const ConfigLoader& load) {
   reader.Read("name", &scenario.name);
   if (const ConfigNode* node = reader.Optional("body")) scenario.body = ReadBody(*node);
   if (const ConfigNode* node = reader.Optional("motion")) scenario.motion = ReadMotion(*node);
+  if (const ConfigNode* node = reader.Optional("supply")) scenario.supply = ReadSupplies(*node);
   if (const ConfigNode* node = reader.Optional("effects")) scenario.effects = ReadEffects(*node);
   reader.Read("clutter", &scenario.clutter);
   if (const ConfigNode* node = reader.Optional("tools")) scenario.tools = ReadTools(*node);

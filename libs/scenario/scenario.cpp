@@ -85,6 +85,12 @@ std::vector<std::string> RobotNames::Actuators() const {
 
 void CheckAgainst(const Scenario& scenario, const RobotNames& robot) {
   for (const Effect& effect : scenario.effects) CheckEffect(scenario, effect, robot);
+  for (const ChamberSupply& supply : scenario.supply) {
+    const std::vector<std::string>& names = robot.chambers;
+    if (std::find(names.begin(), names.end(), supply.chamber) != names.end()) continue;
+    throw InputError(supply.location, "supply: the robot has no chamber '" + supply.chamber + "'" +
+                                          DidYouMean(supply.chamber, names));
+  }
   for (const RecordingPlan& plan : scenario.recordings) {
     for (std::size_t c = 0; c < plan.commands.cables.size(); ++c) {
       const std::string& name = plan.commands.cables[c];
@@ -96,6 +102,16 @@ void CheckAgainst(const Scenario& scenario, const RobotNames& robot) {
                                           DidYouMean(name, names));
     }
   }
+}
+
+std::vector<double> Scenario::RecordingBegins_s() const {
+  std::vector<double> begins_s;
+  double end_s = 0.0;
+  for (const RecordingPlan& plan : recordings) {
+    begins_s.push_back(end_s + rest_between_s);
+    end_s = begins_s.back() + plan.duration_s;
+  }
+  return begins_s;
 }
 
 Scenario Scenario::WithCamera(std::size_t number) const {

@@ -44,6 +44,17 @@ struct Motion {
   double rayleigh_stiffness_s = 1e-3;  ///< beta, >= 0
 };
 
+/// How a chamber gets its pressure where that is not ideal.
+struct ChamberSupply {
+  std::string chamber;
+  double valve_time_constant_s = 0.0;  ///< >= 0, without the leak
+  double leak_ratio = 0.0;             ///< >= 0, conductance of the leak over that of the valve
+  double sensor_gain = 0.0;  ///< the supply has (1 + gain) p + zero where its sensor reads p
+  double sensor_zero_Pa = 0.0;
+  double sensor_noise_Pa = 0.0;  ///< >= 0, standard deviation of a reading
+  SourceLocation location = {};
+};
+
 /// hand: fingers and palm of capsules, seen by the camera only; touches nothing.
 enum class ToolShape { kSphere, kCylinder, kPlate, kHand };
 
@@ -169,6 +180,7 @@ struct Scenario {
   std::string name;
   BodyTruth body;
   Motion motion;
+  std::vector<ChamberSupply> supply = {};  ///< of chambers whose supply is not ideal
   std::vector<Effect> effects;
   /// Standard deviation of each parameter of the catalogue, in its manufacturing tolerances. 0:
   /// exactly as the robot file says.
@@ -183,6 +195,8 @@ struct Scenario {
 
   const Tool& ToolNamed(const std::string& name) const;
   bool TakesPictures() const { return camera && !(markers && markers->by_depth_camera); }
+  /// When each recording begins on the bench's clock (schedule.hpp), s.
+  std::vector<double> RecordingBegins_s() const;
   /// The scenario with the camera of that number as its only one; 0: `camera`.
   Scenario WithCamera(std::size_t number) const;
 };

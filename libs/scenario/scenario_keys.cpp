@@ -28,6 +28,10 @@ constexpr NumberRule kTimeStep{.min = 0.0, .max = 1.0, .min_open = true};
 constexpr NumberRule kDuration{.min = 0.0, .max = 86400.0, .min_open = true};
 constexpr NumberRule kCommand{.min = -0.5, .max = 0.5};
 constexpr NumberRule kPressure{.min = -101325.0, .max = 1e6};
+constexpr NumberRule kSensorGain{.min = -0.5, .max = 0.5};
+constexpr NumberRule kSensorZero{.min = -50e3, .max = 50e3};
+constexpr NumberRule kSupplyTime{.min = 0.0, .max = 100.0};
+constexpr NumberRule kLeakRatio{.min = 0.0, .max = 10.0};
 constexpr NumberRule kMass{.min = 0.0, .max = 10.0};
 constexpr NumberRule kPatchRadius{.min = 0.0, .max = 1.0};
 constexpr NumberRule kTilt{.min = -180.0, .max = 180.0};
@@ -51,7 +55,7 @@ void AddPoseKeys(std::vector<Key>* keys, const std::string& meaning) {
 }
 
 KeyTable MakeEffectKeys(const EffectKind& kind) {
-  const ValueType place = kind.place == Place::kTwoCables
+  const ValueType place = IsOfTwo(kind.place)
                               ? value::List(value::Text(), 2)
                               : value::Either({value::Text(), value::List(value::Text(), 1)});
   KeyTable table{.title = "effect " + std::string(kind.id),
@@ -133,6 +137,28 @@ const KeyTable& MotionKeys() {
                 "alpha."},
                {"rayleigh_stiffness_s", value::Real(kNonNegative),
                 Default(defaults.rayleigh_stiffness_s), "beta."}}};
+  return keys;
+}
+
+const KeyTable& SupplyKeys() {
+  const ChamberSupply defaults;
+  static const KeyTable keys{
+      .title = "supply",
+      .about =
+          "Supply of a chamber. A regulator holds the reading of its sensor at the command. A "
+          "first-order valve leads to the chamber, which may leak.",
+      .keys = {{"chamber", value::Text(), kRequired, "Chamber of the robot file."},
+               {"valve_time_constant_s", value::Real(kSupplyTime),
+                Default(defaults.valve_time_constant_s),
+                "Time constant of the valve without a leak. 0: no delay."},
+               {"leak_ratio", value::Real(kLeakRatio), Default(defaults.leak_ratio),
+                "Conductance of the chamber's leak over that of its valve."},
+               {"sensor_gain", value::Real(kSensorGain), Default(defaults.sensor_gain),
+                "The supply has (1 + this) times the pressure that the sensor reads,"},
+               {"sensor_zero_Pa", value::Real(kSensorZero), Default(defaults.sensor_zero_Pa),
+                "and so much more."},
+               {"sensor_noise_Pa", value::Real(kNonNegative), Default(defaults.sensor_noise_Pa),
+                "Standard deviation of a reading."}}};
   return keys;
 }
 
@@ -368,6 +394,8 @@ const KeyTable& ScenarioKeys() {
           {"motion", value::Map(MotionKeys()), kOptional, "How it moves."},
           {"effects", value::List(AnyEffect()), kOptional,
            "Hidden effects, see the table of effects. Absent: none."},
+          {"supply", value::ListOfMaps(SupplyKeys()), kOptional,
+           "Supplies of chambers. A chamber that is not named has an ideal one."},
           {"clutter", value::Real(kClutter), Default(defaults.clutter),
            "Manufacturing tolerances: the standard deviation of each parameter of the "
            "catalogue, in its tolerances. 0: exactly as the robot file says."},

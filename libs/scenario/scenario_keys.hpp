@@ -14,6 +14,7 @@ const KeyTable& BodyKeys();
 const KeyTable& BodyMaterialKeys();
 const KeyTable& PronyKeys();
 const KeyTable& MotionKeys();
+const KeyTable& SupplyKeys();
 /// Of an effect of this kind (EffectCatalogue): `id`, `where` and its parameters.
 const KeyTable& EffectKeys(const EffectKind& kind);
 const KeyTable& ToolKeys();

@@ -38,9 +38,10 @@ int WindowCount(const Piece& piece, const Cut& cut) {
   return std::clamp(static_cast<int>(windows), 1, cut.of_hold);
 }
 
-std::vector<std::string> NamesOf(const std::vector<robot::BodyCable>& cables) {
+template <typename Part>
+std::vector<std::string> NamesOf(const std::vector<Part>& parts) {
   std::vector<std::string> names;
-  for (const robot::BodyCable& cable : cables) names.push_back(cable.name);
+  for (const Part& part : parts) names.push_back(part.name);
   return names;
 }
 
@@ -316,13 +317,12 @@ double Sigma_m(const ObservedExperiment& observed, const Sample& sample, Eigen::
 ObservedExperiment Observe(const experiment::Experiment& experiment, const robot::RobotBody& body,
                            const ObservationSettings& settings) {
   ObservedExperiment observed;
-  const std::vector<std::string> cables = NamesOf(body.cables);
   for (const robot::BodyMarker& marker : body.markers) observed.markers.push_back(marker.name);
-  observed.timeline = ReadTimeline(experiment, cables);
+  observed.timeline = ReadTimeline(experiment, robot::ActuatorsOf(body));
   std::vector<Sampler> samplers;
   for (std::size_t i = 0; i < experiment.recordings.size(); ++i) {
     const Recording& recording = experiment.recordings[i];
-    CheckActuators(recording, cables, {});
+    CheckActuators(recording, NamesOf(body.cables), NamesOf(body.chambers));
     observed.recordings.push_back(
         DescribeRecording(experiment, recording, body, settings.with_depth_frames));
     if (recording.markers) CheckMarkers(recording, observed.markers);

@@ -18,20 +18,26 @@ using experiment::ActuatorQuantity;
 constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
 
 const experiment::ActuatorColumn* ColumnOf(const experiment::Recording& recording,
-                                           const std::string& cable) {
+                                           const robot::ActuatorTraits& actuator) {
   if (!recording.actuation) return nullptr;
-  const auto* displacement = recording.actuation->Find(cable, ActuatorQuantity::kDisplacement);
-  return displacement != nullptr ? displacement
-                                 : recording.actuation->Find(cable, ActuatorQuantity::kTension);
+  const auto* displacement =
+      recording.actuation->Find(actuator.name, ActuatorQuantity::kDisplacement);
+  const auto* force = recording.actuation->Find(actuator.name, ActuatorQuantity::kTension);
+  if (displacement == nullptr || force == nullptr) return displacement ? displacement : force;
+  return actuator.IsChamber() ? force : displacement;
 }
 
 Eigen::VectorXd CommandOf(const experiment::Recording& recording,
-                          const std::vector<std::string>& cables, double t_s) {
-  Eigen::VectorXd command(ToIndex(cables.size()));
-  for (std::size_t c = 0; c < cables.size(); ++c) {
-    const auto* column = ColumnOf(recording, cables[c]);
-    command[ToIndex(c)] =
-        column == nullptr ? kNotDriven : recording.actuation->ValueAt(*column, t_s);
+                          const std::vector<robot::ActuatorTraits>& actuators, double t_s) {
+  Eigen::VectorXd command(ToIndex(actuators.size()));
+  for (std::size_t a = 0; a < actuators.size(); ++a) {
+    command[ToIndex(a)] = kNotDriven;
+    const auto* column = ColumnOf(recording, actuators[a]);
+    if (column == nullptr) continue;
+    const double reported = recording.actuation->ValueAt(*column, t_s);
+    command[ToIndex(a)] = column->quantity == ActuatorQuantity::kTension
+                              ? actuators[a].Force_N(reported)
+                              : actuators[a].Displacement_m(reported);
   }
   return command;
 }
@@ -62,7 +68,7 @@ void Append(double t_s, Eigen::VectorXd command, Timeline* timeline) {
   timeline->command.push_back(std::move(command));
 }
 
-/// Commands at zero, of the cables that are driven before and after.
+/// Commands at zero, of the actuators that are driven before and after.
 void AppendRest(double begin_s, double end_s, Timeline* timeline) {
   Eigen::VectorXd zero = timeline->command.back();
   for (double& value : zero) value = std::isnan(value) ? value : 0.0;
@@ -81,10 +87,10 @@ Eigen::VectorXd Timeline::CommandAt(double now_s) const {
 }
 
 Timeline ReadTimeline(const experiment::Experiment& experiment,
-                      const std::vector<std::string>& cables) {
+                      const std::vector<robot::ActuatorTraits>& actuators) {
   Timeline timeline;
-  timeline.cables = cables;
-  timeline.by_tension.assign(cables.size(), false);
+  timeline.actuators = actuators;
+  timeline.by_tension.assign(actuators.size(), false);
   for (const experiment::Recording& recording : experiment.recordings) {
     const double begin_s = FirstStamp(recording);
     const double end_s = LastStamp(recording);
@@ -93,19 +99,19 @@ Timeline ReadTimeline(const experiment::Experiment& experiment,
       const double rest_begin_s = std::max(timeline.t_s.back(), begin_s - rest_s);
       AppendRest(rest_begin_s, begin_s, &timeline);
     }
-    for (std::size_t c = 0; c < cables.size(); ++c) {
-      const auto* column = ColumnOf(recording, cables[c]);
+    for (std::size_t c = 0; c < actuators.size(); ++c) {
+      const auto* column = ColumnOf(recording, actuators[c]);
       if (column != nullptr && column->quantity == ActuatorQuantity::kTension) {
         timeline.by_tension[c] = true;
       }
     }
-    Append(begin_s, CommandOf(recording, cables, begin_s), &timeline);
+    Append(begin_s, CommandOf(recording, actuators, begin_s), &timeline);
     if (recording.actuation) {
       for (const double t_s : recording.actuation->t_s) {
-        Append(t_s, CommandOf(recording, cables, t_s), &timeline);
+        Append(t_s, CommandOf(recording, actuators, t_s), &timeline);
       }
     }
-    Append(end_s, CommandOf(recording, cables, end_s), &timeline);
+    Append(end_s, CommandOf(recording, actuators, end_s), &timeline);
     timeline.begin_s.push_back(begin_s);
     timeline.end_s.push_back(end_s);
   }

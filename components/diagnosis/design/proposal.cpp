@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "components/diagnosis/design/places_to_hang.hpp"
 #include "libs/core/index.hpp"
@@ -27,54 +29,101 @@ constexpr int kMostPairs = 6;
 
 /// The commands that a robot's actuators accept.
 struct Drives {
-  std::vector<std::string> cables;
+  std::vector<robot::ActuatorTraits> actuators;
   std::vector<bool> by_tension;
   std::vector<int> driven;
-  Eigen::VectorXd used;  ///< [cables] the largest command, m or N
+  Eigen::VectorXd used;  ///< [actuators] the largest command, as it is reported
 
   Drives(const robot::RobotBody& body, const Timeline& timeline)
-      : cables(timeline.cables),
+      : actuators(timeline.actuators),
         by_tension(timeline.by_tension),
-        used(Eigen::VectorXd::Zero(std::ssize(timeline.cables))) {
-    double largest_m = 0.0;
-    double largest_N = 0.0;
-    std::vector<bool> commanded(cables.size(), false);
+        used(Eigen::VectorXd::Zero(std::ssize(timeline.actuators))) {
+    std::map<std::string, double> largest_of;  // of all in the same unit
+    std::vector<bool> commanded(actuators.size(), false);
     for (const Eigen::VectorXd& command : timeline.command) {
-      for (std::size_t c = 0; c < cables.size(); ++c) {
-        const double value = std::abs(command[ToIndex(c)]);
+      for (std::size_t c = 0; c < actuators.size(); ++c) {
+        const double value = std::abs(Reported(c, command[ToIndex(c)]));
         if (std::isnan(value)) continue;
         commanded[c] = true;
-        double& largest = by_tension[c] ? largest_N : largest_m;
+        double& largest = largest_of[UnitOf(c)];
         largest = std::max(largest, value);
       }
     }
     const bool none = std::find(commanded.begin(), commanded.end(), true) == commanded.end();
-    for (std::size_t c = 0; c < cables.size(); ++c) {
+    for (std::size_t c = 0; c < actuators.size(); ++c) {
       if (none || commanded[c]) driven.push_back(static_cast<int>(c));
-      const double largest = by_tension[c] ? largest_N : largest_m;
+      const double largest = largest_of[UnitOf(c)];
       used[ToIndex(c)] = largest > 0.0 ? largest : Default(body, c);
+      // Of two chambers one may bear less.
+      if (UnitOf(c) == "Pa") used[ToIndex(c)] = std::min(used[ToIndex(c)], MostPressure_Pa(c));
     }
+  }
+
+  std::string UnitOf(std::size_t c) const {
+    return by_tension[c] ? actuators[c].force_unit() : actuators[c].displacement_unit();
+  }
+  double Reported(std::size_t c, double command) const {
+    return by_tension[c] ? actuators[c].ReportedForce(command)
+                         : actuators[c].ReportedDisplacement(command);
+  }
+  double MostPressure_Pa(std::size_t c) const {
+    return actuators[c].ReportedForce(actuators[c].most_force_N);
   }
 
   double Default(const robot::RobotBody& body, std::size_t cable) const {
     constexpr double kOfSize = 0.05;
     constexpr double kOfLimit = 0.25;
-    if (by_tension[cable]) return kOfLimit * body.cables[cable].max_tension_N;
+    const robot::ActuatorTraits& actuator = actuators[cable];
+    if (by_tension[cable]) return kOfLimit * actuator.ReportedForce(actuator.most_force_N);
+    if (actuator.IsChamber()) return kOfLimit * std::pow(actuator.area_m2, 1.5);
     const Eigen::Matrix3Xd& nodes_m = body.mesh.nodes_m;
     return kOfSize * (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).maxCoeff();
   }
 
-  /// In whole tenths of a millimetre, or hundredths of a newton, not beyond.
+  /// In whole steps of what is shown, not beyond.
   double Rounded(int cable, double command) const {
     constexpr double kRounding = 1e-9;
-    const double step = by_tension[palpate::At(cable)] ? 1e-2 : 1e-4;
+    const double step = ShownIn(cable).step;
     return std::copysign(step * std::floor(std::abs(command) / step + kRounding), command);
   }
-  double At(int cable, double share) const { return Rounded(cable, share * used[cable]); }
+  /// No pressure beyond what the chamber may have.
+  double At(int cable, double share) const {
+    const auto c = static_cast<std::size_t>(cable);
+    const double command = share * used[cable];
+    return Rounded(cable, UnitOf(c) == "Pa" ? std::min(command, MostPressure_Pa(c)) : command);
+  }
   std::string Text(int cable, double share) const {
-    const bool tension = by_tension[palpate::At(cable)];
-    const double shown = std::abs(At(cable, share)) * (tension ? 1e2 : 1e4);
-    return FormatNumber(std::round(shown) / (tension ? 1e2 : 10.0)) + (tension ? " N" : " mm");
+    const Shown shown = ShownIn(cable);
+    const double steps = std::round(std::abs(At(cable, share)) / shown.step);
+    return FormatNumber(steps / shown.steps_of_unit) + " " + shown.unit;
+  }
+  std::string Title(int cable) const { return actuators[palpate::At(cable)].Title(); }
+  bool HasChambers() const {
+    return std::any_of(driven.begin(), driven.end(),
+                       [&](int c) { return actuators[palpate::At(c)].IsChamber(); });
+  }
+  /// "cables", "chambers" or "actuators": what the driven ones are.
+  std::string Plural() const { return Singular() + "s"; }
+  std::string Singular() const {
+    const bool cables = std::any_of(driven.begin(), driven.end(),
+                                    [&](int c) { return !actuators[palpate::At(c)].IsChamber(); });
+    return !HasChambers() ? "cable" : cables ? "actuator" : "chamber";
+  }
+
+ private:
+  /// As what a command is shown, and to how much.
+  struct Shown {
+    double step;           ///< in the unit of the command
+    double steps_of_unit;  ///< of the unit that is shown
+    std::string unit;
+  };
+
+  Shown ShownIn(int cable) const {
+    const std::string unit = UnitOf(palpate::At(cable));
+    if (unit == "N") return {1e-2, 1e2, "N"};
+    if (unit == "Pa") return {1e2, 1e1, "kPa"};
+    if (unit == "m3") return {1e-8, 1e2, "ml"};
+    return {1e-4, 1e1, "mm"};
   }
 };
 
@@ -82,15 +131,16 @@ struct Drives {
 class Script {
  public:
   explicit Script(const Drives& drives)
-      : actuators_(drives), now_(Eigen::VectorXd::Zero(std::ssize(drives.cables))) {
+      : actuators_(drives), now_(Eigen::VectorXd::Zero(std::ssize(drives.actuators))) {
     for (const int c : drives.driven) {
       const auto i = static_cast<std::size_t>(c);
-      actuation_.columns.push_back({.cable = drives.cables[i],
+      actuation_.columns.push_back({.cable = drives.actuators[i].name,
                                     .quantity = drives.by_tension[i]
                                                     ? experiment::ActuatorQuantity::kTension
                                                     : experiment::ActuatorQuantity::kDisplacement,
                                     .samples = {},
-                                    .where = {}});
+                                    .where = {},
+                                    .of_chamber = drives.actuators[i].IsChamber()});
     }
     Add();
   }
@@ -131,28 +181,35 @@ class Script {
 
 void AddPulls(const Drives& drives, std::vector<Proposal>* proposals) {
   for (const int c : drives.driven) {
-    const std::string& name = drives.cables[At(c)];
-    proposals->push_back(Script(drives)
-                             .To({c}, kFarther, kRamp_s)
-                             .Stay(kDwell_s)
-                             .To({c}, 0.0, kRamp_s)
-                             .Finish(RecordingKind::kRamp,
-                                     "ramp of cable " + name + " to " + drives.Text(c, kFarther)));
+    const std::string name = drives.Title(c);
     proposals->push_back(
         Script(drives)
-            .To({c}, 1.0, kDwell_s)
-            .Stay(kHold_s)
-            .To({c}, 0.0, kDwell_s)
-            .Finish(RecordingKind::kHold,
-                    "cable " + name + " held at " + drives.Text(c, 1.0) + " for a minute"));
+            .To({c}, kFarther, kRamp_s)
+            .Stay(kDwell_s)
+            .To({c}, 0.0, kRamp_s)
+            .Finish(RecordingKind::kRamp, "ramp of " + name + " to " + drives.Text(c, kFarther)));
+    proposals->push_back(Script(drives)
+                             .To({c}, 1.0, kDwell_s)
+                             .Stay(kHold_s)
+                             .To({c}, 0.0, kDwell_s)
+                             .Finish(RecordingKind::kHold,
+                                     name + " held at " + drives.Text(c, 1.0) + " for a minute"));
   }
   if (drives.driven.empty()) return;
   Script fast(drives);
   for (const int c : drives.driven) fast.To({c}, 1.0, kFastRamp_s).To({c}, 0.0, kFastRamp_s);
-  proposals->push_back(fast.Finish(RecordingKind::kSecondSpeed,
-                                   "each cable to " + drives.Text(drives.driven.front(), 1.0) +
-                                       " and back within " + FormatNumber(2.0 * kFastRamp_s) +
-                                       " s, one after the other"));
+  proposals->push_back(fast.Finish(
+      RecordingKind::kSecondSpeed,
+      "each " + drives.Singular() + " to " + drives.Text(drives.driven.front(), 1.0) +
+          " and back within " + FormatNumber(2.0 * kFastRamp_s) + " s, one after the other"));
+}
+
+/// "cables north and south".
+std::string PairTitle(const Drives& drives, int a, int b) {
+  const robot::ActuatorTraits& one = drives.actuators[At(a)];
+  const robot::ActuatorTraits& other = drives.actuators[At(b)];
+  if (one.kind != other.kind) return one.Title() + " and " + other.Title();
+  return (one.IsChamber() ? "chambers " : "cables ") + one.name + " and " + other.name;
 }
 
 void AddCoContractions(const Drives& drives, std::vector<Proposal>* proposals) {
@@ -168,18 +225,17 @@ void AddCoContractions(const Drives& drives, std::vector<Proposal>* proposals) {
   int pairs = 0;
   for (std::size_t a = 0; a < driven.size() && driven.size() > 2; ++a) {
     for (std::size_t b = a + 1; b < driven.size() && pairs < kMostPairs; ++b, ++pairs) {
-      together({driven[a], driven[b]},
-               "cables " + drives.cables[At(driven[a])] + " and " + drives.cables[At(driven[b])]);
+      together({driven[a], driven[b]}, PairTitle(drives, driven[a], driven[b]));
     }
   }
-  if (driven.size() > 1) together(driven, "all cables");
+  if (driven.size() > 1) together(driven, "all " + drives.Plural());
 }
 
 /// Cables commanded by tension cannot be released below zero.
 void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
   std::vector<int> by_length;
   for (const int c : drives.driven) {
-    if (!drives.by_tension[At(c)]) by_length.push_back(c);
+    if (!drives.by_tension[At(c)] && !drives.actuators[At(c)].IsChamber()) by_length.push_back(c);
   }
   if (by_length.empty()) return;
   proposals->push_back(Script(drives)
@@ -188,6 +244,18 @@ void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
                            .To(by_length, 0.0, kRamp_s)
                            .Finish(RecordingKind::kRamp,
                                    "all cables let out by " + drives.Text(by_length.front(), 1.0)));
+}
+
+/// What the sensors of chambers read as zero shows where these are open.
+void AddVenting(const Drives& drives, std::vector<Proposal>* proposals) {
+  if (!drives.HasChambers()) return;
+  Proposal open = Script(drives).Stay(kHang_s).Finish(RecordingKind::kRest,
+                                                      "chambers open to the air, at rest");
+  std::optional<experiment::Actuation>& actuation = open.recording.actuation;
+  std::erase_if(actuation->columns, [](const auto& column) { return column.of_chamber; });
+  if (actuation->columns.empty()) actuation.reset();
+  open.by_hand = "take the tubes off the chambers before the recording begins";
+  proposals->push_back(std::move(open));
 }
 
 /// As a title, and as an instruction to a person.
@@ -245,8 +313,9 @@ void AddTilts(const Drives& drives, std::vector<Proposal>* proposals) {
     }
     Proposal proposal = script.Finish(RecordingKind::kBaseTilted, "");
     const ByHand tilted = Tilt(axis, &proposal);
-    proposal.title =
-        tilted.title + (drives.driven.empty() ? "" : ", at rest and with a cable pulled");
+    const std::string moved =
+        drives.HasChambers() ? "one " + drives.Singular() + " actuated" : "a cable pulled";
+    proposal.title = tilted.title + (drives.driven.empty() ? "" : ", at rest and with " + moved);
     proposal.by_hand = tilted.words + kBefore;
     proposals->push_back(std::move(proposal));
   }
@@ -277,6 +346,7 @@ std::vector<Proposal> BenchProposals(const robot::RobotBody& body,
   AddPulls(drives, &proposals);
   AddCoContractions(drives, &proposals);
   AddSlackening(drives, &proposals);
+  AddVenting(drives, &proposals);
   AddWeights(body, drives, &proposals);
   if (!body.gravity_m_s2.isZero()) AddTilts(drives, &proposals);
   AddTiltedWeights(body, drives, &proposals);

@@ -163,11 +163,24 @@ void FindGainInterval(const std::vector<Sums>& recordings, ErrorSummary* error) 
   error->heldout_gain_high_m = gains_m[gains_m.size() - 1 - tail];
 }
 
+/// [actuators] as actuation.csv has it.
+Eigen::VectorXd ReportedCommand(const Timeline& timeline, double t_s) {
+  Eigen::VectorXd command = timeline.CommandAt(t_s);
+  for (std::size_t a = 0; a < timeline.actuators.size(); ++a) {
+    double& value = command[ToIndex(a)];
+    value = timeline.by_tension[a] ? timeline.actuators[a].ReportedForce(value)
+                                   : timeline.actuators[a].ReportedDisplacement(value);
+  }
+  return command;
+}
+
 void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& body,
                   DiagnosisResult* result) {
-  result->cables = observed.timeline.cables;
-  for (const bool by_tension : observed.timeline.by_tension) {
-    result->cable_units.emplace_back(by_tension ? "N" : "m");
+  for (std::size_t a = 0; a < observed.timeline.actuators.size(); ++a) {
+    const robot::ActuatorTraits& actuator = observed.timeline.actuators[a];
+    result->cables.push_back(actuator.Title());
+    result->cable_units.emplace_back(
+        observed.timeline.by_tension[a] ? actuator.force_unit() : actuator.displacement_unit());
   }
   result->markers = observed.markers;
   result->marker_rest_m.resize(3, std::ssize(body.markers) + observed.feature_rest_m.cols());
@@ -230,7 +243,7 @@ void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBo
     ++sums[r].samples;
     result->compared_samples.push_back({.recording = sample.recording,
                                         .t_s = sample.t_s,
-                                        .command = observed.timeline.CommandAt(sample.t_s),
+                                        .command = ReportedCommand(observed.timeline, sample.t_s),
                                         .before_m = OnBody(observed, s, before_m[s]),
                                         .after_m = OnBody(observed, s, after_m[s])});
   }

@@ -37,6 +37,13 @@ void MakeCableGuides(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* 
 void MakeSwappedCables(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeDriveCoupling(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeLag(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeLeak(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeSlowValve(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeBlockedValve(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakePressureGain(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakePressureZero(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeSwappedTubes(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
+void MakeThinWall(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeCameraMoved(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeDepthScale(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);
 void MakeDepthIncidenceBias(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);

@@ -50,13 +50,15 @@ class Discrepancy : public FaultModel {
   std::shared_ptr<const PostureFunctions> functions_;
 };
 
-/// A cable takes in, or pulls with, so many times the experiment's largest command more.
-class CableDiscrepancy final : public Discrepancy {
+/// An actuator takes in, or pulls or presses with, so many times the experiment's largest command
+/// more.
+class ActuatorDiscrepancy final : public Discrepancy {
  public:
-  CableDiscrepancy(const std::string& cable, Eigen::VectorXd change,
-                   std::shared_ptr<const PostureFunctions> functions)
-      : Discrepancy({"cable:" + cable}, "how far cable " + cable + " bends the body",
-                    std::move(functions), DiscrepancyGroup::kCables),
+  ActuatorDiscrepancy(const robot::ActuatorTraits& actuator, Eigen::VectorXd change,
+                      std::shared_ptr<const PostureFunctions> functions)
+      : Discrepancy({(actuator.IsChamber() ? "chamber:" : "cable:") + actuator.name},
+                    "how far " + actuator.Title() + " bends the body", std::move(functions),
+                    DiscrepancyGroup::kCables),
         change_(std::move(change)) {}
 
  private:
@@ -64,7 +66,7 @@ class CableDiscrepancy final : public Discrepancy {
     return CommandChange(change_);
   }
 
-  Eigen::VectorXd change_;  ///< [cables]
+  Eigen::VectorXd change_;  ///< [actuators]
 };
 
 /// A material is stiffer by such a share.
@@ -85,13 +87,13 @@ class StiffnessDiscrepancy final : public Discrepancy {
   int material_;
 };
 
-/// Of all commands of the kind that this cable has; 0: there are none.
-double LargestCommand(const ObservedExperiment& observed, std::size_t cable) {
+/// Of all commands of the kind that this actuator has; 0: there are none.
+double LargestCommand(const ObservedExperiment& observed, std::size_t actuator) {
   double largest = 0.0;
   for (const Sample& sample : observed.samples) {
     const Eigen::VectorXd command = observed.timeline.CommandAt(sample.t_s);
     for (std::size_t c = 0; c < observed.timeline.by_tension.size(); ++c) {
-      if (observed.timeline.by_tension[c] != observed.timeline.by_tension[cable]) continue;
+      if (observed.timeline.by_tension[c] != observed.timeline.by_tension[actuator]) continue;
       const double value = std::abs(command[ToIndex(c)]);
       if (std::isfinite(value)) largest = std::max(largest, value);
     }
@@ -106,12 +108,12 @@ void MakeModelDiscrepancy(const CatalogueInputs& inputs, std::vector<FaultModelP
   const auto of_posture = FunctionsOfPosture(inputs.body, *inputs.as_built);
   if (!of_posture) return;
   const auto functions = std::make_shared<const PostureFunctions>(*of_posture);
-  const auto cables = std::ssize(inputs.body.cables);
-  for (Eigen::Index c = 0; c < cables; ++c) {
+  const std::vector<robot::ActuatorTraits>& actuators = inputs.observed.timeline.actuators;
+  for (Eigen::Index c = 0; c < std::ssize(actuators); ++c) {
     const double largest = LargestCommand(inputs.observed, static_cast<std::size_t>(c));
     if (largest == 0.0) continue;
-    faults->push_back(std::make_unique<CableDiscrepancy>(
-        inputs.body.cables[At(c)].name, largest * Eigen::VectorXd::Unit(cables, c), functions));
+    faults->push_back(std::make_unique<ActuatorDiscrepancy>(
+        actuators[At(c)], largest * Eigen::VectorXd::Unit(std::ssize(actuators), c), functions));
   }
   for (std::size_t k = 0; k < inputs.body.materials.size(); ++k) {
     const std::string where = k == 0 ? "body" : "region:" + inputs.body.region_names[k - 1];

@@ -16,13 +16,33 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// tau dy/dt + y = u, exactly for u that goes linearly from `u0` to `u1` within `h_s`.
+double Follow(double from, double u0, double u1, double h_s, double tau_s) {
+  const double behind = h_s > 0.0 ? (u1 - u0) / h_s * tau_s : 0.0;
+  if (!(tau_s > 0.0) || !(h_s > 0.0) || std::isnan(from + behind)) return u1;
+  return u1 - behind + (from - u0 + behind) * std::exp(-h_s / tau_s);
+}
+
 }  // namespace
 
-ActuatorSettings::ActuatorSettings(int cables)
-    : mixing(Eigen::MatrixXd::Identity(cables, cables)),
-      gain(Eigen::VectorXd::Zero(cables)),
-      offset_m(Eigen::VectorXd::Zero(cables)),
-      play_m(Eigen::VectorXd::Zero(cables)) {}
+ActuatorSettings::ActuatorSettings(int actuators)
+    : mixing(Eigen::MatrixXd::Identity(actuators, actuators)),
+      gain(Eigen::VectorXd::Zero(actuators)),
+      offset_m(gain),
+      play_m(gain),
+      pressure_zero_N(gain),
+      valve_tau_s(gain),
+      leak_ratio(gain),
+      blocked_share(gain),
+      blocked_from_s(
+          Eigen::VectorXd::Constant(actuators, std::numeric_limits<double>::infinity())) {}
+
+/// One that is commanded by pressure.
+bool ActuatorChain::IsChamber(Eigen::Index actuator) const {
+  const Timeline& timeline = observed_.timeline;
+  return timeline.actuators[palpate::At(actuator)].IsChamber() &&
+         timeline.by_tension[palpate::At(actuator)];
+}
 
 ActuatorChain::ActuatorChain(const ObservedExperiment& observed) : observed_(observed) {
   t_s_ = observed.timeline.t_s;
@@ -40,11 +60,15 @@ ActuatorChain::ActuatorChain(const ObservedExperiment& observed) : observed_(obs
   }
 }
 
-/// After mixing and delay. A cable that gets nothing but commands of actuators that are off is off.
+/// After mixing and delay, of chambers after the sensor. A cable that gets nothing but commands of
+/// actuators that are off is off.
 Eigen::VectorXd ActuatorChain::Commanded(const ActuatorSettings& settings, double t_s) const {
-  const Eigen::VectorXd command = observed_.timeline.CommandAt(t_s - settings.delay_s);
-  Eigen::VectorXd commanded(command.size());
+  const Eigen::VectorXd delayed = observed_.timeline.CommandAt(t_s - settings.delay_s);
+  const Eigen::VectorXd present = observed_.timeline.CommandAt(t_s);
+  Eigen::VectorXd commanded(delayed.size());
   for (Eigen::Index cable = 0; cable < commanded.size(); ++cable) {
+    const bool is_chamber = IsChamber(cable);
+    const Eigen::VectorXd& command = is_chamber ? present : delayed;
     double sum = 0.0;
     bool driven = false;
     for (Eigen::Index drive = 0; drive < commanded.size(); ++drive) {
@@ -54,27 +78,50 @@ Eigen::VectorXd ActuatorChain::Commanded(const ActuatorSettings& settings, doubl
       driven = true;
     }
     commanded[cable] = driven ? sum : kUnknown;
+    if (is_chamber) {
+      commanded[cable] =
+          (1.0 + settings.gain[cable]) * commanded[cable] + settings.pressure_zero_N[cable];
+    }
   }
   return commanded;
+}
+
+void ActuatorChain::GoToAsCable(Eigen::Index c, double h_s, double next,
+                                const ActuatorSettings& settings, Place* now) const {
+  double& followed = now->followed[c];
+  followed = Follow(followed, now->commanded[c], next, h_s, settings.tau_s);
+  const bool by_tension = observed_.timeline.by_tension[palpate::At(c)];
+  const double geared =
+      (1.0 + settings.gain[c]) * followed + (by_tension ? 0.0 : settings.offset_m[c]);
+  double& taken_in = now->taken_in[c];
+  taken_in = robot::Play(taken_in, geared, by_tension ? 0.0 : std::abs(settings.play_m[c]));
+}
+
+void ActuatorChain::GoToAsChamber(Eigen::Index c, double t_s, double next,
+                                  const ActuatorSettings& settings, Place* now) const {
+  const double h_s = t_s - now->t_s;
+  const double share = 1.0 / (1.0 + settings.leak_ratio[c]);
+  double& followed = now->followed[c];
+  // A chamber that was open is at ambient pressure.
+  const double was = std::isnan(followed) && h_s > 0.0 && !std::isnan(next) ? 0.0 : followed;
+  const double from = std::isnan(now->commanded[c]) ? next : now->commanded[c];
+  followed = Follow(was, share * from, share * next, h_s, share * settings.valve_tau_s[c]);
+  double& kept = now->kept[c];
+  if (t_s <= settings.blocked_from_s[c] || std::isnan(kept)) kept = followed;
+  const double blocked = settings.blocked_share[c];
+  now->taken_in[c] =
+      blocked == 0.0 || std::isnan(kept) ? followed : followed + blocked * (kept - followed);
 }
 
 void ActuatorChain::GoTo(double t_s, const ActuatorSettings& settings, Place* now) const {
   const Eigen::VectorXd next = Commanded(settings, t_s);
   const double h_s = t_s - now->t_s;
   for (Eigen::Index c = 0; c < next.size(); ++c) {
-    // tau dy/dt + y = u, exactly for u that goes linearly.
-    const double commanded = now->commanded[c];
-    double& followed = now->followed[c];
-    const double behind = h_s > 0.0 ? (next[c] - commanded) / h_s * settings.tau_s : 0.0;
-    const bool lags = settings.tau_s > 0.0 && h_s > 0.0 && !std::isnan(followed + behind);
-    followed =
-        lags ? next[c] - behind + (followed - commanded + behind) * std::exp(-h_s / settings.tau_s)
-             : next[c];
-    const bool by_tension = observed_.timeline.by_tension[palpate::At(c)];
-    const double geared =
-        (1.0 + settings.gain[c]) * followed + (by_tension ? 0.0 : settings.offset_m[c]);
-    double& taken_in = now->taken_in[c];
-    taken_in = robot::Play(taken_in, geared, by_tension ? 0.0 : std::abs(settings.play_m[c]));
+    if (IsChamber(c)) {
+      GoToAsChamber(c, t_s, next[c], settings, now);
+    } else {
+      GoToAsCable(c, h_s, next[c], settings, now);
+    }
   }
   now->commanded = next;
   now->t_s = t_s;
@@ -82,12 +129,13 @@ void ActuatorChain::GoTo(double t_s, const ActuatorSettings& settings, Place* no
 
 Eigen::MatrixXd ActuatorChain::Path(const ActuatorSettings& settings) const {
   const std::vector<double>& turns_s = observed_.timeline.t_s;
-  Eigen::MatrixXd path(std::ssize(observed_.timeline.cables), std::ssize(t_s_));
+  Eigen::MatrixXd path(std::ssize(observed_.timeline.actuators), std::ssize(t_s_));
   const Eigen::VectorXd commanded = Commanded(settings, t_s_.front());
   Place now{.t_s = t_s_.front(),
             .commanded = commanded,
-            .followed = commanded,
-            .taken_in = Eigen::VectorXd::Constant(commanded.size(), kUnknown)};
+            .followed = commanded.cwiseQuotient((1.0 + settings.leak_ratio.array()).matrix()),
+            .taken_in = Eigen::VectorXd::Constant(commanded.size(), kUnknown),
+            .kept = Eigen::VectorXd::Constant(commanded.size(), kUnknown)};
   auto turn = turns_s.begin();
   for (Eigen::Index k = 0; k < path.cols(); ++k) {
     const double t_s = t_s_[palpate::At(k)];

@@ -24,7 +24,7 @@ std::optional<double> StampOf(const std::vector<experiment::KnownLoad>& loads) {
 HistoryOperator::HistoryOperator(const ObservedExperiment& observed) : observed_(observed) {
   const std::vector<Sample>& samples = observed.samples;
   const Timeline& timeline = observed.timeline;
-  largest_command_ = Eigen::VectorXd::Zero(std::ssize(timeline.cables));
+  largest_command_ = Eigen::VectorXd::Zero(std::ssize(timeline.actuators));
   for (const Eigen::VectorXd& command : timeline.command) {
     largest_command_ = command.array().isNaN().select(
         largest_command_, command.cwiseAbs().cwiseMax(largest_command_));

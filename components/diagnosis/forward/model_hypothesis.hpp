@@ -49,7 +49,7 @@ struct WorldForce {
 /// has it (NominalHypothesis), and faults change it.
 struct ModelHypothesis {
   explicit ModelHypothesis(const robot::RobotBody& of)
-      : body(of), actuators(static_cast<int>(of.cables.size())) {}
+      : body(of), actuators(static_cast<int>(of.cables.size() + of.chambers.size())) {}
 
   robot::RobotBody body;
   /// The robot file's body, on which places are named: where the body is of another shape, what

@@ -12,9 +12,8 @@ namespace palpate::diagnosis {
 namespace {
 
 /// Which cables pull, and whether the body is at an obstacle.
-std::vector<bool> WhatHolds(const HeldShape& shape) {
+std::vector<bool> WhatHolds(const HeldShape& shape, int cables) {
   constexpr double kNothing_N = 1e-6;
-  const auto cables = std::ssize(shape.commands);
   std::vector<bool> holds{shape.AtObstacle()};
   for (const double tension_N : shape.state.multipliers_N.head(cables)) {
     holds.push_back(tension_N > kNothing_N);
@@ -63,7 +62,8 @@ class SampleInParts {
       if (TellsAnEnd(k)) of_part[k] = solver_.HistoryInputAt(past_, solved);
       if (k == 0) mean_m = Eigen::VectorXd::Zero(solved.seen_m.size());
       mean_m += parts_[k].share * solved.seen_m;
-      by_what_holds[WhatHolds(solved.middle)].emplace_back(solved.middle).share = parts_[k].share;
+      by_what_holds[WhatHolds(solved.middle, Cables())].emplace_back(solved.middle).share =
+          parts_[k].share;
     }
     simulated->bend_m = mean_m - simulated->seen_m;
     simulated->seen_m = std::move(mean_m);
@@ -115,6 +115,7 @@ class SampleInParts {
   }
 
  private:
+  int Cables() const { return solver_.model().CableCount(); }
   void Solve(std::size_t part, SimulatedSample* solved) {
     solver_.SetSliding(parts_[part].sliding);
     solver_.Solve(sample_, parts_[part].taken_in, past_, solved);
@@ -189,14 +190,15 @@ class SampleInParts {
     }
   }
 
-  static bool IsHeldAs(const HeldShape& was, const SimulatedSample& solved) {
-    return solved.status.ok() && WhatHolds(solved.middle) == WhatHolds(was);
+  bool IsHeldAs(const HeldShape& was, const SimulatedSample& solved) const {
+    const int cables = Cables();
+    return solved.status.ok() && WhatHolds(solved.middle, cables) == WhatHolds(was, cables);
   }
 
   /// Beside the middle: shapes that are held by something else.
-  static void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_what_holds,
-                         SimulatedSample* simulated) {
-    const std::vector<bool> in_the_middle = WhatHolds(simulated->middle);
+  void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_what_holds,
+                  SimulatedSample* simulated) const {
+    const std::vector<bool> in_the_middle = WhatHolds(simulated->middle, Cables());
     simulated->middle.share = 1.0;
     for (const auto& [what, shapes] : by_what_holds) {
       if (what == in_the_middle) continue;

@@ -72,7 +72,7 @@ SampleSolver::SampleSolver(const ModelHypothesis& hypothesis, const ObservedExpe
       markers_(MarkerPoints(hypothesis)),
       skin_(hypothesis),
       cell_volume_m3_(fem::CellVolumes_m3(hypothesis.body.mesh)),
-      zero_shift_m_(model_.CableCount()),
+      zero_shift_m_(Eigen::VectorXd::Zero(model_.ActuatorCount())),
       base_middle_m_(MiddleOfBase(hypothesis.body)) {
   for (int c = 0; c < model_.CableCount(); ++c) {
     zero_shift_m_[c] =
@@ -86,10 +86,17 @@ std::vector<robot::ActuatorCommand> SampleSolver::Commands(const Eigen::VectorXd
   for (Eigen::Index c = 0; c < taken_in.size(); ++c) {
     const auto cable = static_cast<std::size_t>(c);
     if (std::isnan(taken_in[c])) continue;
-    commands[cable] =
-        observed_.timeline.by_tension[cable]
-            ? robot::ActuatorCommand{Kind::kTension, std::max(0.0, taken_in[c])}
-            : robot::ActuatorCommand{Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
+    if (!observed_.timeline.by_tension[cable]) {
+      commands[cable] = {Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
+      continue;
+    }
+    double force_N = taken_in[c];
+    // A chamber of another size has another piston at the same pressure.
+    if (const int chamber = static_cast<int>(c) - model_.CableCount(); chamber >= 0) {
+      force_N *= model_.chamber(chamber).area_m2() / observed_.timeline.actuators[cable].area_m2;
+    }
+    const double least_N = model_.traits(static_cast<int>(c)).least_force_N;
+    commands[cable] = {Kind::kTension, std::max(least_N, force_N)};
   }
   return commands;
 }
@@ -341,7 +348,7 @@ HistoryInput SampleSolver::Rest() {
   SimulatedSample rest;
   Sample nothing;
   nothing.t_s = observed_.timeline.begin_s.front();
-  // Of the cables that are driven at all.
+  // Of the actuators that are driven at all.
   const double off = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd zero = Eigen::VectorXd::Constant(model_.ActuatorCount(), off);
   for (const Eigen::VectorXd& command : observed_.timeline.command) {

@@ -40,7 +40,7 @@ class SampleSolver {
   MeasuredPoints SurfacePointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
-  /// sample with `taken_in` [cables], a compliant base at what it yields by.
+  /// sample with `taken_in` [actuators], a compliant base at what it yields by.
   void Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
              const HistoryVariables& history_variables, SimulatedSample* solved);
   /// Whether the body is so near the hypothesis's obstacle that it may touch it elsewhere in the
@@ -78,7 +78,7 @@ class SampleSolver {
   const ModelHypothesis& hypothesis_;
   const ObservedExperiment& observed_;
   fem::PointStress points_;
-  KeptStress kept_;                            ///< the first constraint after the cables
+  KeptStress kept_;                            ///< the first constraint after the actuators
   std::unique_ptr<ObstacleContact> obstacle_;  ///< the hypothesis's, or none: the last
   robot::RobotModel model_;
   std::vector<robot::RubbingEyelet> eyelets_;
@@ -87,7 +87,7 @@ class SampleSolver {
   std::vector<fem::InterpolationWeights> markers_;
   MarkerNormals skin_;
   Eigen::VectorXd cell_volume_m3_;
-  Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the actuators were zeroed at
+  Eigen::VectorXd zero_shift_m_;  ///< [actuators] of cables: of the shape that they were zeroed at
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d base_middle_m_;
 };

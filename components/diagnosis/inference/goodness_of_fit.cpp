@@ -117,11 +117,11 @@ void ResidualStatistics::CutIntoSeries(const ObservedExperiment& observed,
   };
   const auto coordinate_of = [&](Eigen::Index row) { return model.coordinate_of_row[At(row)]; };
   const auto taken_in = [&](double t_s) -> Eigen::VectorXd {
-    if (observed.timeline.cables.empty()) return {};
+    if (observed.timeline.actuators.empty()) return {};
     const Eigen::VectorXd command = observed.timeline.CommandAt(t_s);
     return command.array().isNaN().select(0.0, command);
   };
-  const auto cables = std::ssize(observed.timeline.cables);
+  const auto cables = std::ssize(observed.timeline.actuators);
   for (Eigen::Index first = 0, end = 0; first < model.y.size(); first = end) {
     const int recording = sample_of(first).recording;
     while (end < model.y.size() && sample_of(end).recording == recording &&

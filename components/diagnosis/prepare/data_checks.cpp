@@ -137,7 +137,7 @@ bool IsFrozen(const std::vector<const SeenCloud*>& clouds) {
 /// How the commands go at the stamps of depth frames.
 Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud*>& clouds) {
   Jumpiness jumpiness;
-  for (Eigen::Index c = 0; c < std::ssize(timeline.cables); ++c) {
+  for (Eigen::Index c = 0; c < std::ssize(timeline.actuators); ++c) {
     std::vector<Eigen::Vector3d> series;
     for (const SeenCloud* one : clouds) {
       const double commanded = timeline.CommandAt(one->frame.t_s)[c];
@@ -196,6 +196,17 @@ bool IsShuffled(const ObservedExperiment& observed, std::size_t recording,
 
 Status Refused(const std::string& why) { return {StatusCode::kInvalidInput, why}; }
 
+/// A rest in which all chambers are open to the air. Cables are never left alone on purpose.
+bool MayBeOpen(const experiment::Experiment& experiment, const Recording& recording) {
+  if (recording.kind != experiment::RecordingKind::kRest) return false;
+  return std::all_of(
+      experiment.recordings.begin(), experiment.recordings.end(), [](const Recording& one) {
+        return !one.actuation ||
+               std::all_of(one.actuation->columns.begin(), one.actuation->columns.end(),
+                           [](const auto& column) { return column.of_chamber; });
+      });
+}
+
 }  // namespace
 
 Status CheckImages(const ObservedExperiment& observed, const SurfaceClouds& clouds) {
@@ -239,7 +250,7 @@ Status CheckTables(const experiment::Experiment& experiment) {
     const std::string who = "recording " + recording.name;
     const bool measured =
         recording.markers || !recording.depth_images.empty() || !recording.clouds.empty();
-    if (measured && actuated && !recording.actuation) {
+    if (measured && actuated && !recording.actuation && !MayBeOpen(experiment, recording)) {
       return Refused(who +
                      " has no actuation.csv, but others have: its cable commands are unknown");
     }

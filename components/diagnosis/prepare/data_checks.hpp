@@ -13,7 +13,8 @@ namespace palpate::diagnosis {
 
 /// Whether an experiment's tables can be used. Refuses markers that do not change (a frozen
 /// camera), positions in another order than their stamps, and a recording without actuation where
-/// others have it.
+/// others have it, unless it is a rest of a robot that is driven by air alone: its chambers were
+/// open.
 Status CheckTables(const experiment::Experiment& experiment);
 
 /// The same of depth frames: refuses a robot that is missing in most of them, frames that do not

@@ -45,7 +45,7 @@ bool SeesTheRobot(const Sample& sample, bool in_frames) {
 /// most.
 ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
   const Timeline& timeline = observed.timeline;
-  Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.cables));
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.actuators));
   for (const Eigen::VectorXd& command : timeline.command) {
     most = command.array().isNaN().select(most, command.cwiseMax(most));
   }
@@ -158,6 +158,7 @@ NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExp
       SecondsSince(begin) / std::max(1.0, static_cast<double>(telling.samples.size()));
   std::vector<FaultModelPtr> exchanges;
   MakeSwappedCables({.body = body, .observed = telling}, &exchanges);
+  MakeSwappedTubes({.body = body, .observed = telling}, &exchanges);
   for (const FaultModelPtr& exchange : exchanges) {
     ModelHypothesis hypothesis = as_in_file;
     exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);

@@ -115,7 +115,7 @@ struct ForceError {
 struct ComparedSample {
   int recording = 0;  ///< index into DiagnosisResult::recordings
   double t_s = 0.0;
-  Eigen::VectorXd command;    ///< [cables] m or N as commanded; NaN: not driven
+  Eigen::VectorXd command;    ///< [actuators] as commanded, in cable_units; NaN: not driven
   Eigen::Matrix3Xd before_m;  ///< [3 x markers] measured - simulated, robot frame; NaN: not seen
   Eigen::Matrix3Xd after_m;   ///< the same of the extended model (or the nominal robot's fit)
 };
@@ -192,8 +192,9 @@ struct DiagnosisResult {
   std::vector<ExperimentProposal> experiments;
 
   // What the figures are drawn from.
-  std::vector<std::string> cables;
-  std::vector<std::string> cable_units;  ///< [cables] "m" or "N" of ComparedSample::command
+  std::vector<std::string> cables;  ///< actuators: "cable north", "chamber tip"
+  /// [cables] of ComparedSample::command: "m" or "N", of a chamber "m3" or "Pa"
+  std::vector<std::string> cable_units;
   std::vector<std::string> markers;
   Eigen::Matrix3Xd marker_rest_m;                ///< [3 x markers], robot frame
   Eigen::Matrix3Xd surface_m;                    ///< [3 x nodes] of the undeformed body

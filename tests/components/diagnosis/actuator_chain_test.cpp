@@ -20,7 +20,7 @@ ObservedExperiment Commanded(const std::vector<double>& t_s, const Eigen::Matrix
                              const std::vector<double>& frames_s) {
   ObservedExperiment observed;
   observed.recordings.resize(1);
-  observed.timeline.cables = {"a", "b"};
+  observed.timeline.actuators = {{.name = "a"}, {.name = "b"}};
   observed.timeline.by_tension = {false, false};
   observed.timeline.t_s = t_s;
   for (const auto& command : commanded.colwise()) observed.timeline.command.emplace_back(command);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <optional>
+#include <set>
 
 #include "tests/components/diagnosis/fault_derivatives.hpp"
 
@@ -74,7 +75,12 @@ TEST_F(FaultDerivatives, AreCaughtWhereTheySayALittleTooMuch) {
 }
 
 TEST_F(FaultDerivatives, AreOfEveryCauseOfTheCatalogue) {
+  // chamber_faults_test.cpp
+  const std::set<std::string> of_chambers = {"leak",          "slow_valve",    "blocked_valve",
+                                             "pressure_gain", "pressure_zero", "swapped_tubes",
+                                             "thin_wall"};
   for (const std::string& id : SearchedFaults()) {
+    if (of_chambers.contains(id)) continue;
     EXPECT_TRUE(std::any_of(causes_.begin(), causes_.end(), [&](const FaultModelPtr& cause) {
       return cause->name().id == id;
     })) << id;

@@ -41,8 +41,9 @@ class FaultDerivatives : public testing::Test {
  protected:
   FaultDerivatives() : FaultDerivatives(SmallRobot(), SmallExperiment(SmallRobot())) {}
   FaultDerivatives(const robot::RobotBody& body, const experiment::Experiment& experiment,
-                   const Seeing& seeing = nullptr)
-      : body_(body),
+                   const Seeing& seeing = nullptr, bool with_mesh_error = true)
+      : with_mesh_error_(with_mesh_error),
+        body_(body),
         observed_(SingleFrames(
             Observe(experiment, body_, {.most_samples = 14, .depth_cameras = SmallCameras()}))) {
     if (!seeing) return;
@@ -61,7 +62,7 @@ class FaultDerivatives : public testing::Test {
   /// The mesh of SmallRobot in tet4 is known to err.
   std::vector<FaultModelPtr> Causes() const {
     CatalogueInputs world{.body = body_, .observed = observed_, .as_built = &at_rest_};
-    if (body_.mesh.element_type() == fem::ElementType::kTet4) {
+    if (with_mesh_error_ && body_.mesh.element_type() == fem::ElementType::kTet4) {
       const robot::RobotBody finer = SmallRobotOnFinerMesh();
       const Simulation on_finer = Simulator(observed_, 1).Run(NominalHypothesis(finer, observed_));
       world.mesh_error =
@@ -185,6 +186,7 @@ class FaultDerivatives : public testing::Test {
     }
   }
 
+  bool with_mesh_error_;
   robot::RobotBody body_;
   ObservedExperiment observed_;
   Eigen::Index each_ = observed_.CoordinateCount();

@@ -114,7 +114,7 @@ TEST(HistoryOperator, KnowsHoldsAndZeroCommandsBetweenFewSamples) {
   ObservedExperiment observed;
   observed.recordings.resize(2);
   Timeline& timeline = observed.timeline;
-  timeline.cables = {"pull", "tendon"};
+  timeline.actuators = {{.name = "pull"}, {.name = "tendon"}};
   timeline.by_tension = {false, true};
   timeline.t_s = {0.0, 2.0, 12.0, 14.0, 18.0, 20.0};
   // Metres are not small beside newtons.

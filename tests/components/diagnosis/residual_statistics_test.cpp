@@ -26,7 +26,7 @@ struct Scene {
 
   Scene() {
     rest_m << 0.0, 0.01, 1.0, 1.01, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
-    observed.timeline.cables = {"pulled", "still"};
+    observed.timeline.actuators = {{.name = "pulled"}, {.name = "still"}};
     for (int r = 0; r < kRecordings; ++r) {
       observed.recordings.push_back({.name = "r" + std::to_string(r), .kind = "ramp"});
       for (int s = 0; s < kSamples; ++s) {

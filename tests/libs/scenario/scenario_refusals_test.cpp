@@ -180,5 +180,37 @@ TEST(ScenarioRefusals, EffectsOnWhatIsNotThere) {
   EXPECT_THAT(RefusalWith("from_recording: 1", "from_recording: 0.5"), HasSubstr("whole number"));
 }
 
+TEST(ScenarioRefusals, SuppliesThatCannotBe) {
+  const auto with = [](const std::string& supplies) {
+    return RefusalWith("clutter: 0.5", "supply:\n" + supplies + "\nclutter: 0.5");
+  };
+  EXPECT_THAT(with("  - {valve_time_constant_s: 0.1}"),
+              HasSubstr("'supply[0].chamber' is missing"));
+  EXPECT_THAT(with("  - {chamber: tip, valve_time_constant_ms: 100}"),
+              AllOf(StartsWith("bench/s.yaml:14:"), HasSubstr("valve_time_constant_s")));
+  EXPECT_THAT(with("  - {chamber: tip, valve_time_constant_s: -0.1}"), HasSubstr("not -0.1"));
+  EXPECT_THAT(with("  - {chamber: tip, leak_ratio: -1}"), HasSubstr("not -1"));
+  EXPECT_THAT(with("  - {chamber: tip, sensor_gain: 2}"), HasSubstr("not 2"));
+  EXPECT_THAT(with("  - {chamber: tip, sensor_noise_Pa: -2}"), HasSubstr("not -2"));
+  EXPECT_THAT(with("  - {chamber: tip}\n  - {chamber: tip}"),
+              AllOf(StartsWith("bench/s.yaml:15:"), HasSubstr("a second supply")));
+  const Scenario scenario =
+      Parse(FullWith("clutter: 0.5", "supply:\n  - {chamber: top}\nclutter: 0.5"));
+  const RobotNames robot{
+      .cables = {"north", "east", "west"}, .chambers = {"tip"}, .regions = {}, .markers = {}};
+  EXPECT_THAT(MessageOf([&] { CheckAgainst(scenario, robot); }),
+              AllOf(StartsWith("bench/s.yaml:14:"), HasSubstr("no chamber 'top'")));
+}
+
+TEST(ScenarioRefusals, EffectsOfChambersAtOtherPlaces) {
+  const auto with = [](const std::string& effect) {
+    return RefusalWith("  - {id: cable_friction, where: cable:north, mu: 0.3}", "  - " + effect);
+  };
+  EXPECT_THAT(with("{id: leak, where: cable:north, ratio: 0.1}"), HasSubstr("chamber:<name>"));
+  EXPECT_THAT(with("{id: swapped_tubes, where: chamber:tip}"),
+              HasSubstr("[chamber:<name>, chamber:<another name>]"));
+  EXPECT_THAT(with("{id: slow_valve, where: chamber:tip, tau_s: -1}"), HasSubstr("-1"));
+}
+
 }  // namespace
 }  // namespace palpate::scenario

@@ -44,7 +44,7 @@ ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescription& rob
 BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot, Measured measured) {
   Random random(seed, "blind case");
   BlindCase drawn{.seed = seed, .kind = KindOf(seed)};
-  std::vector<MenuItem> menu = CauseMenu();
+  std::vector<MenuItem> menu = MenuFor(robot);
   if (measured == Measured::kPictures) {
     std::erase_if(menu, [](const MenuItem& item) { return item.id == "marker_misplacement"; });
   }

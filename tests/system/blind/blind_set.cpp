@@ -13,6 +13,7 @@
 #include <random>
 
 #include "libs/core/error.hpp"
+#include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/system/blind/score_table.hpp"
@@ -57,12 +58,12 @@ CaseKind ParseKind(const std::string& text) {
       fmt::format("PALPATE_BLIND_KIND is '{}', none of: {}", text, fmt::join(kinds, ", ")));
 }
 
-/// Causes are drawn as large as they are seen on four_leg (cause_menu.hpp).
+/// Causes are drawn as large as they are seen on four_leg, and those of chambers on the pneumatic
+/// robots (cause_menu.hpp).
 void TakeRobot(const std::string& robot, BlindSet* set) {
-  if (robot != "four_leg" && robot != "rod") {
-    throw InputError(
-        fmt::format("PALPATE_BLIND_ROBOT is '{}', neither 'four_leg' nor 'rod'", robot));
-  }
+  const std::vector<std::string> robots = {"four_leg", "rod", "pneumatic_finger", "pneumatic_arm"};
+  if (!IndexOf(robot, robots))
+    throw InputError("PALPATE_BLIND_ROBOT: " + Unknown("robot", robot, robots));
   if (robot == "rod" && set->kind.value_or(CaseKind::kHealthy) != CaseKind::kHealthy) {
     throw InputError("PALPATE_BLIND_ROBOT 'rod' has cases of PALPATE_BLIND_KIND 'healthy' only");
   }

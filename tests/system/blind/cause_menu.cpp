@@ -3,6 +3,7 @@
 
 #include "tests/system/blind/cause_menu.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -166,7 +167,58 @@ std::vector<MenuItem> CableCauses() {
   };
 }
 
+/// Of the largest pressure that a chamber may have.
+double LeastOfLimits_Pa(const RobotDescription& robot) {
+  double least_Pa = robot.chambers.front().max_pressure_Pa;
+  for (const robot::ChamberSettings& chamber : robot.chambers)
+    least_Pa = std::min(least_Pa, chamber.max_pressure_Pa);
+  return least_Pa;
+}
+
 }  // namespace
+
+const std::vector<MenuItem>& ChamberMenu() {
+  using R = const RobotDescription&;
+  static const std::vector<MenuItem> menu = {
+      {"leak",
+       [](Random* r, R) -> Parameters {
+         return {{"ratio", Logarithmic(r, 0.25, 0.6)}};
+       }},
+      {"slow_valve",
+       [](Random* r, R) -> Parameters {
+         return {{"tau_s", Logarithmic(r, 0.1, 1.0)}};
+       }},
+      // Of the recordings between the first and the last one.
+      {"blocked_valve",
+       [](Random* r, R robot) -> Parameters {
+         const std::size_t most = 4 + robot.chambers.size();
+         return {{"from_recording", static_cast<double>(1 + r->Below(most))}};
+       }},
+      {"pressure_gain",
+       [](Random* r, R) -> Parameters {
+         return {{"g", Signed(r, 0.2, 0.35)}};
+       }},
+      {"pressure_zero",
+       [](Random* r, R robot) -> Parameters {
+         const double limit_Pa = LeastOfLimits_Pa(robot);
+         return {{"zero_Pa", Signed(r, 0.04 * limit_Pa, 0.1 * limit_Pa)}};
+       }},
+      {"swapped_tubes", [](Random*, R) -> Parameters { return {}; }},
+      {"thin_wall",
+       [](Random* r, R) -> Parameters {
+         return {{"thinner_m", Logarithmic(r, 7e-4, 1.2e-3)}};
+       }},
+  };
+  return menu;
+}
+
+std::vector<MenuItem> MenuFor(const RobotDescription& robot) {
+  if (robot.chambers.empty()) return CauseMenu();
+  std::vector<MenuItem> menu = ChamberMenu();
+  if (robot.chambers.size() < 2)
+    std::erase_if(menu, [](const MenuItem& item) { return item.id == "swapped_tubes"; });
+  return menu;
+}
 
 const std::vector<MenuItem>& CauseMenu() {
   static const std::vector<MenuItem> menu = [] {
@@ -185,6 +237,7 @@ const std::vector<LeftOut>& LeftOutOfMenu() {
         {"cable_friction", "its cables end in knots: there is no eyelet to rub in"},
         {"cable_cutting", "at a knot it is cable_elasticity of the inverse stiffness"},
     };
+    for (const MenuItem& item : ChamberMenu()) all.push_back({item.id, "it has no chambers"});
     for (const std::string_view camera :
          {"camera_moved", "depth_scale", "depth_incidence_bias", "intrinsics", "lens_distortion",
           "flying_pixels", "warm_up_drift"}) {
@@ -197,6 +250,8 @@ const std::vector<LeftOut>& LeftOutOfMenu() {
 
 std::vector<std::string> TwinsOf(std::string_view id) {
   if (id == "cable_elasticity") return {"cable_cutting"};
+  // A leak takes a share of every pressure, as a sensor that reads too much does.
+  if (id == "leak") return {"pressure_gain"};
   return {};
 }
 

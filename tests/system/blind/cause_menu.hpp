@@ -26,13 +26,17 @@ struct MenuItem {
 /// Those that move four_leg's markers in config/scenarios/diagnose.yaml by 0.3 mm RMS in some
 /// recording, at least at the upper end of their range.
 const std::vector<MenuItem>& CauseMenu();
+/// Those of chambers, by the same rule for pneumatic_finger and pneumatic_arm.
+const std::vector<MenuItem>& ChamberMenu();
+/// What can be hidden in a robot: of one with chambers those of its chambers.
+std::vector<MenuItem> MenuFor(const robot::RobotDescription& robot);
 
 struct LeftOut {
   std::string_view id;
   std::string_view why;
 };
 
-/// The rest of the catalogue.
+/// The rest of the catalogue, on robots without chambers.
 const std::vector<LeftOut>& LeftOutOfMenu();
 
 /// What else does exactly the same to this robot: either name is right.

@@ -87,12 +87,16 @@ Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
     : robot_file_{std::move(robot_file)}, folder_{std::move(folder)}, measured_{measured} {
   const fs::path scenarios = fs::path(PALPATE_SOURCE_DIR) / "config/scenarios";
   const std::string robot = robot_file_.stem().string();
-  scenario_text_ = ReadFile(scenarios / (robot == "rod" ? "diagnose_rod.yaml" : "diagnose.yaml"));
+  const std::string scenario = robot == "four_leg" ? "diagnose" : "diagnose_" + robot;
+  const fs::path file = scenarios / (scenario + ".yaml");
+  scenario_text_ = ReadFile(fs::exists(file) ? file : scenarios / "diagnose.yaml");
   PALPATE_CHECK(scenario_text_.find(kNoEffects) != std::string::npos);
   // A finer rod takes long, and of five rows a second not a half are compared.
   if (robot == "rod") scenario_text_ = Replaced(scenario_text_, kRodsRate, "rate_hz: 2");
-  for (const fs::path& mesh : {scenarios / "four_leg_coarse.msh", scenarios / "rod_coarse.msh",
-                               fs::path(PALPATE_SOURCE_DIR) / "config/robots/rod.msh"}) {
+  for (const fs::path& mesh :
+       {scenarios / "four_leg_coarse.msh", scenarios / "rod_coarse.msh",
+        scenarios / "pneumatic_finger_coarse.msh", scenarios / "pneumatic_arm_coarse.msh",
+        fs::path(PALPATE_SOURCE_DIR) / "config/robots/rod.msh"}) {
     fs::copy_file(mesh, folder_ / mesh.filename(), fs::copy_options::overwrite_existing);
   }
 }

@@ -17,7 +17,7 @@ Figure DrawResidualForces(const DiagnosisResult& result);
 /// RMS of the residual in each recording.
 Figure DrawRecordingBars(const DiagnosisResult& result);
 
-/// Residual against actuation, for the cables that moved most.
+/// Residual against actuation, for the actuators that moved most.
 Figure DrawHysteresis(const DiagnosisResult& result);
 
 /// Residual in holds against the logarithm of time.

@@ -45,6 +45,19 @@ std::string UnitOf(const DiagnosisResult& result, std::size_t cable) {
   return cable < result.cable_units.size() ? result.cable_units[cable] : "m";
 }
 
+/// How commands of a unit are drawn.
+struct Quantity {
+  std::string title;
+  double factor = 1.0;
+};
+
+Quantity QuantityIn(const std::string& unit) {
+  if (unit == "N") return {"tension commanded (N)", 1.0};
+  if (unit == "Pa") return {"pressure read (kPa)", 1e-3};
+  if (unit == "m3") return {"change of volume (ml)", 1e6};
+  return {"displacement commanded (mm)", 1e3};
+}
+
 /// The recording in which a cable moved far and the others little.
 std::vector<Loop> FindLoops(const DiagnosisResult& result,
                             const std::vector<ComparedSamples>& compared_samples) {
@@ -81,17 +94,16 @@ std::vector<Loop> FindLoops(const DiagnosisResult& result,
 TracePanel MakeLoopPanel(const DiagnosisResult& result, const Loop& loop,
                          const ComparedSamples& compared_samples) {
   const auto cable = static_cast<std::size_t>(loop.cable);
-  const bool in_N = UnitOf(result, cable) == "N";
-  const double factor = in_N ? 1.0 : 1e3;
+  const Quantity quantity = QuantityIn(UnitOf(result, cable));
   const DominantResidual dominant = FindDominant(compared_samples);
   TracePanel panel;
-  panel.title = "cable " + result.cables[cable] + ", in " + result.recordings[loop.recording].name;
+  panel.title = result.cables[cable] + ", in " + result.recordings[loop.recording].name;
   panel.note = DescribeDominant(dominant, result);
-  panel.x_title = in_N ? "tension commanded (N)" : "displacement commanded (mm)";
+  panel.x_title = quantity.title;
   panel.directed = true;
   panel.x_range = {0.0, 0.0};
   for (const ComparedSample* compared : compared_samples) {
-    const double x = factor * CommandOf(*compared, loop.cable);
+    const double x = quantity.factor * CommandOf(*compared, loop.cable);
     panel.x.push_back(x);
     panel.before_mm.push_back(Along_mm(dominant, compared->before_m));
     panel.after_mm.push_back(Along_mm(dominant, compared->after_m));
@@ -108,7 +120,7 @@ TracePanel MakeLoopPanel(const DiagnosisResult& result, const Loop& loop,
 
 Figure DrawHysteresis(const DiagnosisResult& result) {
   Figure figure{.id = "hysteresis",
-                .title = "Residual against actuation, for the cables that moved most",
+                .title = "Residual against actuation, for the actuators that moved most",
                 .caption =
                     "Each panel shows the marker and direction that vary most in the "
                     "recording; arrow heads follow time, so that an open loop is "
@@ -123,7 +135,7 @@ Figure DrawHysteresis(const DiagnosisResult& result) {
   }
   std::vector<Loop> loops = FindLoops(result, compared_samples);
   if (loops.empty()) {
-    figure.absent = "No cable moved while markers were compared.";
+    figure.absent = "No actuator moved while markers were compared.";
     return figure;
   }
   std::stable_sort(loops.begin(), loops.end(),

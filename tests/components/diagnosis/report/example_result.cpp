@@ -133,7 +133,7 @@ void AddBody(DiagnosisResult* result) {
     result->marker_rest_m.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
   }
   for (const auto& cable : body.cables) {
-    result->cables.push_back(cable.name);
+    result->cables.push_back("cable " + cable.name);
     result->cable_units.emplace_back("m");
   }
   AddForces(body, result);

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "libs/app/yaml.hpp"
+#include "libs/experiment/recording_inputs.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "libs/robot/wall_thinning.hpp"
+#include "tests/components/diagnosis/fault_derivatives.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+const std::set<std::string> kOfChambers = {"leak",          "slow_valve",    "blocked_valve",
+                                           "pressure_gain", "pressure_zero", "swapped_tubes",
+                                           "thin_wall"};
+
+/// The arm with three chambers in linear elements, which are computed in milliseconds.
+robot::RobotBody QuickArm() {
+  const std::filesystem::path config = std::filesystem::path(PALPATE_SOURCE_DIR) / "config";
+  robot::RobotDescription arm =
+      robot::ReadRobotFile(config / "robots/pneumatic_arm.yaml", app::LoadYaml);
+  arm.mesh.file = config / "scenarios/pneumatic_arm_coarse.msh";
+  arm.element = fem::ElementType::kTet4;
+  return robot::BuildRobotBody(arm);
+}
+
+/// Pressures of the chambers, Pa, at a time.
+struct PressureKnot {
+  double t_s;
+  std::vector<double> pressure_Pa;
+};
+
+experiment::Recording PressureRecording(const std::string& name, const robot::RobotBody& body,
+                                        const std::vector<PressureKnot>& knots, double frame_s) {
+  std::vector<Knot> none;
+  for (const PressureKnot& knot : knots) none.push_back({knot.t_s, {}});
+  experiment::Recording recording = MakeRecording(name, body, none, frame_s);
+  experiment::Actuation& actuation = *recording.actuation;
+  actuation.columns.clear();
+  for (std::size_t c = 0; c < body.chambers.size(); ++c) {
+    experiment::ActuatorColumn column{.cable = body.chambers[c].name,
+                                      .quantity = experiment::ActuatorQuantity::kTension,
+                                      .samples = {},
+                                      .where = {},
+                                      .of_chamber = true};
+    for (const PressureKnot& knot : knots) column.samples.emplace_back(knot.pressure_Pa[c]);
+    actuation.columns.push_back(std::move(column));
+  }
+  return recording;
+}
+
+experiment::Experiment ArmExperiment(const robot::RobotBody& body) {
+  const std::vector<double> low{1e3, 2e3, 3e3};
+  experiment::Experiment experiment;
+  experiment.markers_sigma_m = Eigen::Vector3d::Constant(3e-4);
+  experiment.rest_between_s = 4.0;
+  experiment.recordings.push_back(
+      PressureRecording("a_ramp", body, {{0.0, low}, {2.0, {20e3, 5e3, 9e3}}, {4.0, low}}, 0.25));
+  experiment.recordings.push_back(PressureRecording(
+      "b_fast", body, {{8.0, low}, {8.5, {6e3, 15e3, 12e3}}, {9.5, {6e3, 15e3, 12e3}}}, 0.25));
+  return experiment;
+}
+
+class ChamberFaults : public FaultDerivatives {
+ protected:
+  ChamberFaults() : ChamberFaults(QuickArm()) {}
+  explicit ChamberFaults(const robot::RobotBody& body)
+      : FaultDerivatives(body, ArmExperiment(body), nullptr, /*with_mesh_error=*/false) {}
+
+  const FaultModel& First(const std::string& id) const {
+    const auto found = std::find_if(causes_.begin(), causes_.end(),
+                                    [&](const auto& cause) { return cause->name().id == id; });
+    EXPECT_NE(found, causes_.end()) << id;
+    return **found;
+  }
+  /// [actuators x samples] N
+  Eigen::MatrixXd Thrust_N(const std::string& id, double z) const {
+    ModelHypothesis hypothesis = nominal_;
+    if (!id.empty()) First(id).Apply(Eigen::VectorXd::Constant(1, z), &hypothesis);
+    return ActuatorChain(observed_).At(hypothesis.actuators);
+  }
+};
+
+TEST_F(ChamberFaults, AreOfEveryKind) {
+  std::set<std::string> found;
+  for (const FaultModelPtr& cause : causes_) {
+    if (kOfChambers.contains(cause->name().id)) found.insert(cause->name().id);
+    EXPECT_FALSE(cause->name().id.starts_with("cable_")) << cause->words();
+  }
+  EXPECT_EQ(found, kOfChambers);
+}
+
+TEST_F(ChamberFaults, AreWhatTheyAreDefinedAs) {
+  const double area_m2 = observed_.timeline.actuators[0].area_m2;
+  const Eigen::MatrixXd healthy_N = Thrust_N("", 0.0);
+  const auto first = healthy_N.row(0);
+  EXPECT_NEAR(healthy_N.maxCoeff(), 20e3 * area_m2, 0.2 * 20e3 * area_m2);
+  EXPECT_TRUE(Thrust_N("pressure_gain", 0.1).row(0).isApprox(1.1 * first, 1e-12));
+  EXPECT_TRUE((Thrust_N("pressure_zero", 500.0).row(0).array() - first.array())
+                  .isApproxToConstant(500.0 * area_m2, 1e-9));
+  EXPECT_TRUE(Thrust_N("leak", 0.25).row(0).isApprox(first / 1.25, 1e-12));
+  // Of the first recording on: at the pressure with which that begins.
+  EXPECT_TRUE(Thrust_N("blocked_valve", 1.0).row(0).isApproxToConstant(1e3 * area_m2, 1e-9));
+  for (const char* id : {"pressure_gain", "pressure_zero", "leak", "slow_valve", "blocked_valve"}) {
+    EXPECT_TRUE(Thrust_N(id, 0.05).bottomRows(2).isApprox(healthy_N.bottomRows(2), 1e-14)) << id;
+  }
+  const double area_of_other_m2 = observed_.timeline.actuators[1].area_m2;
+  EXPECT_TRUE(
+      (Thrust_N("swapped_tubes", 1.0).row(1) / area_of_other_m2).isApprox(first / area_m2, 1e-12));
+}
+
+/// A ramp of the rate r is followed later by tau, that is by r tau.
+TEST_F(ChamberFaults, ASlowValveIsBehindARampByItsTimeConstant) {
+  constexpr double kTau_s = 0.05;
+  const double rate_N_s = (20e3 - 1e3) / 2.0 * observed_.timeline.actuators[0].area_m2;
+  const Eigen::MatrixXd behind_N = Thrust_N("", 0.0) - Thrust_N("slow_valve", kTau_s);
+  for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
+    const double t_s = observed_.samples[s].t_s;
+    if (t_s < 0.6 || t_s > 1.9) continue;  // the start has been forgotten
+    EXPECT_NEAR(behind_N(0, ToIndex(s)), rate_N_s * kTau_s, 1e-3 * rate_N_s * kTau_s);
+  }
+}
+
+TEST_F(ChamberFaults, HaveTheDerivativesOfApply) {
+  ASSERT_TRUE(at_rest_.status.ok()) << at_rest_.status.message();
+  for (const std::string& id : kOfChambers) {
+    const FaultModel& fault = First(id);
+    ExpectDerivative(fault, Eigen::VectorXd::Zero(std::ssize(fault.parameters())), 2e-3);
+  }
+}
+
+/// Its volume grows by the area of its wall, and nothing outside moves.
+TEST_F(ChamberFaults, AThinWallIsALargerChamber) {
+  constexpr double kThinner_m = 1e-5;
+  const robot::BodyChamber& chamber = body_.chambers.front();
+  const Eigen::VectorXd mode_m = robot::WallThinning(body_.mesh, body_.boundary, chamber.wall);
+  const fem::EnclosedVolume volume(chamber.wall);
+  const Eigen::VectorXd rest_m = body_.mesh.nodes_m.reshaped();
+  double area_m2 = 0.0;
+  for (const auto& face : chamber.wall.faces.colwise()) {
+    const auto at = [&](int k) -> Eigen::Vector3d {
+      return chamber.wall.points[static_cast<std::size_t>(face[k])].Position(rest_m);
+    };
+    area_m2 += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+  }
+  const double grown_m3 = volume.Volume_m3(rest_m + kThinner_m * mode_m) - volume.Volume_m3(rest_m);
+  EXPECT_NEAR(grown_m3, kThinner_m * area_m2, 0.1 * kThinner_m * area_m2);
+  for (const robot::BodyMarker& marker : body_.markers) {
+    EXPECT_LT(marker.point.weights.Position(mode_m).norm(), 0.05) << marker.name;
+  }
+  EXPECT_LE(mode_m.reshaped(3, body_.mesh.NodeCount()).colwise().norm().maxCoeff(), 1.0 + 1e-12);
+}
+
+TEST_F(ChamberFaults, PressureCountsWhereAChamberHasBothColumns) {
+  experiment::Experiment experiment = ArmExperiment(body_);
+  for (experiment::Recording& recording : experiment.recordings) {
+    experiment::ActuatorColumn volume = recording.actuation->columns.front();
+    volume.quantity = experiment::ActuatorQuantity::kDisplacement;
+    for (std::optional<double>& sample : volume.samples) sample = 1e-6;
+    recording.actuation->columns.insert(recording.actuation->columns.begin(), volume);
+  }
+  const ObservedExperiment both = Observe(experiment, body_, {.most_samples = 14});
+  EXPECT_TRUE(both.timeline.by_tension.front());
+  EXPECT_EQ(both.timeline.CommandAt(2.0), observed_.timeline.CommandAt(2.0));
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "tests/system/blind/diagnose_fixture.hpp"
+
+namespace palpate::blind {
+namespace {
+
+/// A pneumatic robot of linear cells, as is the one that made the data: a diagnosis takes seconds,
+/// and the mesh is no fault. Manufacturing tolerances are drawn.
+class DiagnoseChambers : public DiagnoseVerb {
+ protected:
+  void Take(const std::string& robot) {
+    name_ = robot;
+    mesh_ = robot + "_coarse.msh";
+    element_of_truth_ = "element: tet4";
+    std::string text = ReadFile(Source() / "config/robots" / (robot + ".yaml"));
+    Replace("element: tet10", "element: tet4", &text);
+    Replace("file: " + robot + ".msh", "file: " + (Source() / "config/scenarios" / mesh_).string(),
+            &text);
+    robot_ = (folder_ / (robot + ".yaml")).string();
+    WriteFile(robot_, text);
+  }
+
+  nlohmann::json VerdictOn(const std::string& effect) {
+    Make(effect, "diagnose_" + name_ + ".yaml");
+    EXPECT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
+    return Verdict();
+  }
+
+  /// The only one that is named, at its place.
+  nlohmann::json Named(const std::string& effect, const std::string& id) {
+    const nlohmann::json verdict = VerdictOn(effect);
+    EXPECT_EQ(verdict["causes"].size(), 1U) << verdict["reason"];
+    if (verdict["causes"].empty()) return {};
+    EXPECT_EQ(verdict["causes"][0]["id"], id) << verdict["reason"];
+    return verdict["causes"][0];
+  }
+
+  static void ExpectWithin(const nlohmann::json& cause, const std::string& parameter,
+                           double hidden) {
+    if (!cause.contains("parameters")) return;
+    const nlohmann::json& ci95 = cause["parameters"][parameter]["ci95"];
+    EXPECT_LT(ci95[0].get<double>(), hidden) << parameter;
+    EXPECT_GT(ci95[1].get<double>(), hidden) << parameter;
+  }
+
+  std::string name_;
+};
+
+TEST_F(DiagnoseChambers, AcquitAHealthyFinger) {
+  Take("pneumatic_finger");
+  const nlohmann::json verdict = VerdictOn("");
+  EXPECT_EQ(verdict["verdict"], "no_fault") << verdict["reason"];
+}
+
+TEST_F(DiagnoseChambers, AcquitAHealthyArm) {
+  Take("pneumatic_arm");
+  const nlohmann::json verdict = VerdictOn("");
+  EXPECT_EQ(verdict["verdict"], "no_fault") << verdict["reason"];
+}
+
+TEST_F(DiagnoseChambers, FindASlowValve) {
+  Take("pneumatic_finger");
+  ExpectWithin(Named("{id: slow_valve, where: chamber:bend, tau_s: 0.3}", "slow_valve"), "tau_s",
+               0.3);
+}
+
+/// At rest a leak and a sensor that reads too much are the same.
+TEST_F(DiagnoseChambers, FindALeakOrWhatLooksTheSame) {
+  Take("pneumatic_finger");
+  const nlohmann::json verdict = VerdictOn("{id: leak, where: chamber:bend, ratio: 0.3}");
+  ASSERT_FALSE(verdict["causes"].empty()) << verdict["reason"];
+  EXPECT_THAT(verdict["causes"][0]["id"].get<std::string>(),
+              testing::AnyOf("leak", "pressure_gain"));
+}
+
+TEST_F(DiagnoseChambers, FindThePressureSensorsZero) {
+  Take("pneumatic_finger");
+  ExpectWithin(Named("{id: pressure_zero, where: chamber:bend, zero_Pa: -2500}", "pressure_zero"),
+               "zero_Pa", -2500.0);
+}
+
+}  // namespace
+}  // namespace palpate::blind
