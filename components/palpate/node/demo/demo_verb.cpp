@@ -67,8 +67,8 @@ app::Verb DemoVerb() {
             DeclareRobotOption(arguments, &system.robot,
                                "the robot to simulate, or the one of --data; without it four_leg");
             arguments.Option("--scenario", &system.scenario,
-                             "Scenario of the virtual robot; without it "
-                             "config/scenarios/sensing.yaml");
+                             "Scenario of the virtual robot; without it touches by the robot's "
+                             "size and stiffness, of four_leg config/scenarios/sensing.yaml");
             arguments.Option(
                 "--data FOLDER", &system.data,
                 "Experiment folder, or MCAP or .db3 file or folder of them, with depth "

@@ -22,6 +22,8 @@
 #include "components/palpate/node/demo/live_table.hpp"
 #include "components/palpate/node/demo/replayed_images.hpp"
 #include "components/palpate/node/demo/system_processes.hpp"
+#include "components/palpate/touches/touch_plan.hpp"
+#include "components/palpate/touches/touch_scenario.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
@@ -53,10 +55,23 @@ void AdviseOnKernel() {
       *granted / 1024, kPictureBuffer_bytes);
 }
 
-std::filesystem::path ScenarioFile(const SystemDemoOptions& options) {
+// The scenario that is given, sensing.yaml of the robot that it is made for, or touches derived
+// from the robot, written to `folder`.
+std::filesystem::path ScenarioFile(const SystemDemoOptions& options,
+                                   const std::filesystem::path& robot,
+                                   const std::filesystem::path& folder) {
   if (!options.scenario.empty()) return std::filesystem::absolute(options.scenario);
-  const std::filesystem::path file = FindProjectFile("config/scenarios/sensing.yaml");
-  if (file.empty()) throw InputError("config/scenarios/sensing.yaml is not there; give --scenario");
+  if (std::filesystem::equivalent(robot, FindRobotFile("four_leg"))) {
+    const std::filesystem::path file = FindProjectFile("config/scenarios/sensing.yaml");
+    if (file.empty()) {
+      throw InputError("config/scenarios/sensing.yaml is not there; give --scenario");
+    }
+    return file;
+  }
+  const std::unique_ptr<robot::RobotModel> model = LoadRobot(robot);
+  const std::filesystem::path file = folder / "scenario.yaml";
+  WriteFile(file, TouchScenario(model->body(), PlanTouches(model.get())));
+  fmt::print("Touches by the size and stiffness of {}: {}\n", model->body().name, file.string());
   return file;
 }
 
@@ -128,9 +143,8 @@ void TellPage(DemoRun* run) {
 }
 
 void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot,
-               const std::string& camera_address, const std::filesystem::path& recording,
-               DemoRun* run) {
-  const std::filesystem::path scenario_file = ScenarioFile(options);
+               const DemoPlace& place, const std::filesystem::path& recording, DemoRun* run) {
+  const std::filesystem::path scenario_file = ScenarioFile(options, robot, place.folder);
   const auto scenario = scenario::ReadScenario(scenario_file, app::LoadYaml);
   if (!scenario.camera)
     throw InputError(scenario_file.string() + ": the scenario has no camera; add the key 'camera'");
@@ -143,7 +157,7 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
         {.name = "demo",
          .variables = {{"robot", robot.string()},
                        {"scenario", scenario_file.string()},
-                       {"camera_address", camera_address},
+                       {"camera_address", place.CameraAddress()},
                        {"camera_pose", geometry::FormatPose(scenario.camera->T_robot_camera)}},
          .calibration = options.calibration,
          .last = "virtual_robot",
@@ -259,7 +273,7 @@ int SystemDemo(const SystemDemoOptions& options) {
               options.remap);
   run.SetLogFolder(place.folder);
   if (with_truth) {
-    PlayBench(options, robot, place.CameraAddress(), recording, &run);
+    PlayBench(options, robot, place, recording, &run);
   } else {
     PlayRecordings(options, robot, recording, &run);
   }
