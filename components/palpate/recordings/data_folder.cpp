@@ -33,7 +33,8 @@ fs::path MakeTemporaryFolder() {
 
 }  // namespace
 
-DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& remap)
+DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& remap,
+                       const fs::path& robot)
     : data_(data), path_(data) {
   if (data.empty() || recording::MessageFilesOf(data).empty()) {
     if (remap.empty()) return;
@@ -44,7 +45,7 @@ DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& rem
   RemoveOnSignal(temporary_);
   path_ = temporary_ / "experiment";
   try {
-    for (const std::string& note : MakeExperiment(data, remap, path_, app::LoadYaml)) {
+    for (const std::string& note : MakeExperiment(data, remap, robot, path_, app::LoadYaml)) {
       fmt::print(stderr, "{}: {}\n", data.string(), note);
     }
   } catch (...) {

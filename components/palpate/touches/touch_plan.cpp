@@ -13,6 +13,7 @@
 #include "components/palpate/touches/camera_place.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::command {
 
@@ -56,14 +57,28 @@ Eigen::Vector3d FixedCentre_m(const robot::RobotBody& body) {
   return sum_m / std::max(count, 1);
 }
 
+/// The median edge of the surface.
+double SurfaceEdge_m(const geometry::TriangleSurface& surface) {
+  std::vector<double> edges_m;
+  for (int face = 0; face < surface.TriangleCount(); ++face) {
+    for (int corner = 0; corner < 3; ++corner) {
+      edges_m.push_back(
+          (surface.Corner(face, (corner + 1) % 3) - surface.Corner(face, corner)).norm());
+    }
+  }
+  return Median(std::move(edges_m));
+}
+
 class Planner {
  public:
   explicit Planner(robot::RobotModel* model)
       : model_(*model),
         shape_(MeasureShape(model->body().mesh)),
         fixed_m_(FixedCentre_m(model->body())) {
-    // A ball dents a body by no less than an element.
-    plan_.ball_radius_m = std::max(0.03 * shape_.diagonal_m, shape_.element_m);
+    // Between the nodes of a face the surface knows no dent.
+    constexpr double kDiagonals = 0.03, kEdges = 1.2;
+    plan_.ball_radius_m = std::max(kDiagonals * shape_.diagonal_m,
+                                   kEdges * SurfaceEdge_m(robot::ContactSurface(model->body())));
   }
 
   TouchPlan Plan() {
@@ -256,7 +271,7 @@ class Planner {
     return best;
   }
 
-  /// The push that moves the place by its share of the diagonal.
+  /// The push that moves the body by its share of the diagonal.
   Touch Press(const Posture& posture, const Place& place) {
     constexpr int kTrials = 8;
     const double wanted_m =
@@ -273,7 +288,7 @@ class Planner {
       const Status status =
           model_.Solve(posture.commands, {{patch.weights, -force_N * place.normal}}, &state).status;
       const Eigen::Vector3d moved_m = patch.weights.Position(state.x_m);
-      const double motion_m = status.ok() ? (moved_m - start_m).norm() : 2.0 * wanted_m;
+      const double motion_m = status.ok() ? Motion_m(posture.state, state) : 2.0 * wanted_m;
       if (motion_m > 1.3 * wanted_m) {
         force_N *= 0.6;
         continue;

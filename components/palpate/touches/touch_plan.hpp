@@ -42,8 +42,9 @@ struct TouchPlan {
   std::optional<Touch> driven;
 };
 
-/// The surface moves by `kTouchMotion` of the body's diagonal under a touch, by `kLongTouchMotion`
-/// where the body is long, because it bends away; actuators move it by `kDrivenMotion`.
+/// What moves most under a touch moves by `kTouchMotion` of the body's diagonal, by
+/// `kLongTouchMotion` where the body is long, because it bends away; under the actuators by
+/// `kDrivenMotion`.
 inline constexpr double kTouchMotion = 0.03;
 inline constexpr double kLongTouchMotion = 0.08;
 inline constexpr double kDrivenMotion = 0.08;

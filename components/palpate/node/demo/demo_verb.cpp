@@ -47,7 +47,9 @@ int Demo(const DemoOptions& options) {
     of_messages.assign(of_processes, of_folder.remap.end());
     of_folder.remap.erase(of_processes, of_folder.remap.end());
   }
-  const DataFolder data(system.data, of_messages);
+  const DataFolder data(
+      system.data, of_messages,
+      system.data.empty() ? std::filesystem::path() : FindRobotFile(system.robot));
   end_on_signal.reset();
   of_folder.data = data.path();
   return data.Run([&](const std::filesystem::path&) { return SystemDemo(of_folder); });
