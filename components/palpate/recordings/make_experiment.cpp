@@ -218,8 +218,9 @@ class ExperimentMaker {
       }
     } catch (const InputError& error) {
       if (!robot_.empty()) throw;
-      notes_.push_back("joint states are taken for cables: the attached robot file cannot be read: " +
-                       std::string(error.what()));
+      notes_.push_back(
+          "joint states are taken for cables: the attached robot file cannot be read: " +
+          std::string(error.what()));
     }
     return chambers;
   }

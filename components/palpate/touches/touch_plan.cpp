@@ -28,6 +28,8 @@ constexpr double kFacing = 0.4;
 constexpr double kLeastOnTheWay = 0.4;
 /// Two balls at once are this many radii apart, so that neither touches the other.
 constexpr double kApartRadii = 4.0;
+/// Near what is fixed a push that moves the body as far would dent it.
+constexpr double kMostForces = 2.0;
 constexpr double kAwayRadii = 5.0;
 constexpr double kNearRadii = 0.3;
 
@@ -94,7 +96,8 @@ class Planner {
     }
     plan_.visible = Press(rest, *visible);
     if (const auto hidden = Best(places, -1.0, {})) plan_.hidden = Press(rest, *hidden);
-    if (const auto second = Best(places, +1.0, *visible)) plan_.second = Press(rest, *second);
+    if (const auto second = Best(places, +1.0, *visible))
+      plan_.second = Press(rest, *second, kMostForces * plan_.visible.force_N);
     if (driven) {
       if (const auto place = Best(PlacesOf(*driven), +1.0, {})) {
         plan_.driven = Press(*driven, *place);
@@ -271,8 +274,9 @@ class Planner {
     return best;
   }
 
-  /// The push that moves the body by its share of the diagonal.
-  Touch Press(const Posture& posture, const Place& place) {
+  /// The push that moves the body by its share of the diagonal, of at most `most_N`.
+  Touch Press(const Posture& posture, const Place& place,
+              double most_N = std::numeric_limits<double>::infinity()) {
     constexpr int kTrials = 8;
     const double wanted_m =
         (shape_.is_long() ? kLongTouchMotion : kTouchMotion) * shape_.diagonal_m;
@@ -281,7 +285,7 @@ class Planner {
     const Eigen::Vector3d start_m = patch.weights.Position(posture.state.x_m);
     const double modulus_Pa = model_.body().materials.front().youngs_modulus_Pa;
     Touch touch;
-    double force_N = 1e-4 * modulus_Pa * radius_m * radius_m;
+    double force_N = std::min(most_N, 1e-4 * modulus_Pa * radius_m * radius_m);
     Eigen::Vector3d pressed_m = start_m;
     for (int k = 0; k < kTrials; ++k) {
       fem::StaticState state = posture.state;
@@ -295,8 +299,8 @@ class Planner {
       }
       pressed_m = moved_m;
       touch.force_N = force_N;
-      if (motion_m > 0.85 * wanted_m) break;
-      force_N *= std::min(wanted_m / std::max(motion_m, 1e-9), 10.0);
+      if (motion_m > 0.85 * wanted_m || force_N >= most_N) break;
+      force_N = std::min(most_N, force_N * std::min(wanted_m / std::max(motion_m, 1e-9), 10.0));
     }
     touch.away_m = start_m + kAwayRadii * radius_m * place.normal;
     touch.near_m = start_m + (1.0 + kNearRadii) * radius_m * place.normal;

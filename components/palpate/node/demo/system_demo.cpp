@@ -29,6 +29,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario.hpp"
@@ -160,6 +161,7 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
                        {"camera_address", place.CameraAddress()},
                        {"camera_pose", geometry::FormatPose(scenario.camera->T_robot_camera)}},
          .calibration = options.calibration,
+         .settings = {"virtual_robot.rate_hz=" + FormatNumber(scenario.camera->rate_hz)},
          .last = "virtual_robot",
          .page = !options.no_view,
          .recording = recording});
