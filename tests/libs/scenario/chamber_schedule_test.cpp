@@ -26,7 +26,9 @@ Scenario WithPressures(const test_support::TestFolder& folder) {
 
 TEST(ChamberSchedule, CommandsComeInTheOrderOfCablesThenChambers) {
   const test_support::TestFolder folder;
-  const RobotNames robot{.cables = {"other", "pull"}, .chambers = {"bend"}};
+  RobotNames robot;
+  robot.cables = {"other", "pull"};
+  robot.chambers = {"bend"};
   const Schedule schedule(WithPressures(folder), robot.Actuators());
   const Eigen::VectorXd command = schedule.InputsAt(1.0).displacement_m;
   ASSERT_EQ(command.size(), 3);

@@ -63,8 +63,9 @@ app::Verb DemoVerb() {
             arguments.Option("--out FOLDER", &system.out,
                              "Folder of the results; without it demo in the build folder, or "
                              "palpate_demo here where palpate is installed");
-            arguments.Option("--seconds", &system.seconds, 1, 86400,
-                             "Duration, s; without it 30 s, or all of --data");
+            arguments.Option(
+                "--seconds", &system.seconds, 1, 86400,
+                "Duration, s; without it 30 s of the virtual robot's time, or all of --data");
             arguments.Flag("--no-view", &system.no_view, "Run without the live page");
             DeclareRobotOption(arguments, &system.robot,
                                "the robot to simulate, or the one of --data; without it four_leg");

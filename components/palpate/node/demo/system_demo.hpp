@@ -17,7 +17,7 @@ struct SystemDemoOptions {
   std::vector<std::string> remap;     ///< FROM:=TO, or __ns:=/NAMESPACE, of the processes
   std::filesystem::path calibration;  ///< empty: none
   bool no_view = false;               ///< without the live page
-  int seconds = 0;                    ///< duration; 0: 30 s of the virtual robot, all of recordings
+  int seconds = 0;  ///< duration; 0: 30 s of the virtual robot's time, all of recordings
 };
 
 /// `palpate demo`: the whole system on one machine. Virtual robot and camera, capture, perception

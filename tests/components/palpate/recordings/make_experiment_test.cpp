@@ -318,7 +318,10 @@ TEST_F(MakeExperimentTest, TheAttachedRobotSaysWhichJointsAreChambers) {
   AddDepthInfo();
   AddDepth(0);
   AddJoints(0, "bend", 2e-6, {12e3});
-  messages_.attachments = {{.name = "finger.yaml", .data = ReadFile(kFinger)}};
+  recording::Attachment robot;
+  robot.name = "finger.yaml";
+  robot.data = ReadFile(kFinger);
+  messages_.attachments = {robot};
   EXPECT_TRUE(Make().recordings.front().actuation->columns.front().of_chamber);
 }
 

@@ -26,6 +26,7 @@ export class CablesPanel {
       ...chambers.map(({ name, volume_m3, pressure_Pa }) => row(name,
         hundredths(scaled(volume_m3, 1e6), 'cm³'), hundredths(scaled(pressure_Pa, 1e-3), 'kPa'))),
     ];
+    byId('show-cables').hidden = !cables.length && chambers.length > 0;  // none are drawn
     this.title.textContent = [cables.length || !chambers.length ? 'Cables' : '',
       chambers.length ? 'Chambers' : ''].filter(Boolean).join(' and ').replace('and C', 'and c');
     replaceIfChanged(this.body, rows.length
