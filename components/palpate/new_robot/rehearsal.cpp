@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/palpate/camera_place.hpp"
 #include "components/palpate/new_robot/marker_guess.hpp"
-#include "components/palpate/touches/camera_place.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"

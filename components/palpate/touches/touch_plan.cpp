@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "components/palpate/camera_place.hpp"
 #include "components/palpate/new_robot/body_shape.hpp"
-#include "components/palpate/touches/camera_place.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"

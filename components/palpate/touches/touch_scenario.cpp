@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "components/palpate/touches/camera_place.hpp"
+#include "components/palpate/camera_place.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::command {

@@ -14,6 +14,7 @@
 #include "components/palpate/node/watch/snapshot_text.hpp"
 #include "components/palpate/node/watch/system_listener.hpp"
 #include "libs/app/node_options.hpp"
+#include "libs/app/project_files.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/core/error.hpp"

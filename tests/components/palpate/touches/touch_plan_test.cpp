@@ -79,7 +79,9 @@ TEST_P(Touches, TheVisiblePlaceFacesTheCameraAndTheHiddenOneDoesNot) {
     return outward.dot((plan_.T_robot_camera.translation() - touch.near_m).normalized());
   };
   EXPECT_GT(facing(plan_.visible), 0.2);
-  if (plan_.hidden) EXPECT_LT(facing(*plan_.hidden), 0.0);
+  if (plan_.hidden) {
+    EXPECT_LT(facing(*plan_.hidden), 0.0);
+  }
 }
 
 TEST_P(Touches, TheScenarioIsOfTheRobotAndUsesEveryActuator) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/touches/camera_place.hpp"
+#include "components/palpate/camera_place.hpp"
 
 #include <fmt/core.h>
 
