@@ -31,6 +31,7 @@ using Eyes = SensingSets::Eyes;
 using Onlooker = SensingSets::Onlooker;
 
 constexpr double kWantedError = 0.1;  ///< of a hidden force
+constexpr double kLargestPressure_Pa = 13e3;
 
 int NumberFrom(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
@@ -175,7 +176,6 @@ Benchmark OfWeights(const SharedSets& sets, Eyes eyes, const char* name, bool gi
 /// Contacts of a robot that is driven by air: on the upper half of the finger, where they move its
 /// tip by 3 to 14 mm.
 std::vector<Benchmark> OfFinger(const SensingSize& size) {
-  constexpr double kLargestPressure_Pa = 13e3;
   const SharedSets sets = MakeLazy<SensingSets>([size] {
     return std::make_unique<SensingSets>(size, test_support::ReadRobot("pneumatic_finger"),
                                          test_support::FingerBallScenario(), kLargestPressure_Pa);
