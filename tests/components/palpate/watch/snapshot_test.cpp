@@ -267,6 +267,7 @@ TEST(Snapshot, EveryFurtherTopicHasItsLine) {
 TEST(Snapshot, ChambersHaveVolumeAndPressureInTheirUnits) {
   monitor::SnapshotBuilder builder(7);
   builder.SetChambers({"bend"});
+  builder.Add(*Report("virtual_robot", "ok"), 1.0);
   dds::Message<idl::sensor_msgs::JointState> joints;
   dds::Resize(joints->name, 1);
   dds::SetText(joints->name._buffer[0], "bend");
@@ -282,13 +283,13 @@ TEST(Snapshot, ChambersHaveVolumeAndPressureInTheirUnits) {
   EXPECT_EQ(state.at("chambers").at(0).at("volume_m3"), volume_m3);
   EXPECT_EQ(state.at("chambers").at(0).at("pressure_Pa"), pressure_Pa);
   // Beside a cable.
-  dds::Resize(joints->name, 2);
-  dds::SetText(joints->name._buffer[0], "north");
-  dds::SetText(joints->name._buffer[1], "bend");
+  dds::Message<idl::sensor_msgs::JointState> both;
+  dds::Resize(both->name, 2);
+  dds::SetText(both->name._buffer[0], "north");
+  dds::SetText(both->name._buffer[1], "bend");
   const std::array position{0.005, volume_m3};
-  dds::SetNumbers(joints->position, position.data(), 2);
-  dds::SetNumbers(joints->effort, position.data(), 0);
-  builder.Add(*joints, 2.0);
+  dds::SetNumbers(both->position, position.data(), 2);
+  builder.Add(*both, 2.0);
   EXPECT_THAT(SnapshotText(builder.At(2.0, 0)),
               AllOf(HasSubstr("ACTUATORS    "), HasSubstr("; north 5.0 mm; bend +1.97 cm3")));
 }
