@@ -275,7 +275,7 @@ int Diagnose(const DiagnoseOptions& options) {
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
   std::optional<EndOnSignal> end_on_signal;
   end_on_signal.emplace("palpate diagnose", "nothing was written");
-  const DataFolder data(options.data, options.remap);
+  const DataFolder data(options.data, options.remap, FindRobotFile(options.robot));
   end_on_signal.reset();
   const app::StopSignal stop([] {
     fmt::print(stderr,

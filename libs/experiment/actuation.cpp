@@ -13,6 +13,7 @@
 #include "libs/core/file.hpp"
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/actuator_fault.hpp"
 #include "libs/experiment/csv_columns.hpp"
 #include "libs/experiment/csv_table.hpp"
 
@@ -68,30 +69,6 @@ ActuatorColumn ParseHeaderField(const CsvTable& table, std::size_t index) {
                    "unknown column '" + name + "'" + DidYouMean(name, possible) + "; " + kExpected);
 }
 
-void CheckSample(const CsvTable& table, std::size_t row, std::size_t index,
-                 const ActuatorColumn& column, double value) {
-  const bool is_force = column.quantity == ActuatorQuantity::kTension;
-  if (is_force && !column.of_chamber && value < 0.0) {
-    table.Refuse(row, index, "a tension is never negative (a cable cannot push)");
-  }
-  if (is_force && column.of_chamber && value < kVacuum_Pa) {
-    table.Refuse(row, index,
-                 "below a vacuum: pressures count from ambient, the lowest is " +
-                     FormatNumber(kVacuum_Pa) + " Pa");
-  }
-  if (is_force) return;
-  if (!column.of_chamber && std::abs(value) > kLargestDisplacement_m) {
-    table.Refuse(row, index,
-                 "more than " + FormatNumber(kLargestDisplacement_m) +
-                     " m; metres are expected, are these millimetres?");
-  }
-  if (column.of_chamber && std::abs(value) > kLargestVolume_m3) {
-    table.Refuse(row, index,
-                 "more than " + FormatNumber(kLargestVolume_m3) +
-                     " m3; cubic metres are expected, are these millilitres?");
-  }
-}
-
 /// nullopt where every field is empty: it was not measured.
 std::optional<ActuatorColumn> ReadColumn(const CsvTable& table, std::size_t index) {
   ActuatorColumn column = ParseHeaderField(table, index);
@@ -100,7 +77,9 @@ std::optional<ActuatorColumn> ReadColumn(const CsvTable& table, std::size_t inde
   for (std::size_t row = 0; row < table.rows(); ++row) {
     column.samples.push_back(table.OptionalNumber(row, index));
     if (!column.samples.back()) continue;
-    CheckSample(table, row, index, column, *column.samples.back());
+    const std::string fault =
+        ActuatorFault(*column.samples.back(), column.quantity, column.of_chamber);
+    if (!fault.empty()) table.Refuse(row, index, fault);
     any = true;
   }
   if (!any) return std::nullopt;
@@ -108,6 +87,26 @@ std::optional<ActuatorColumn> ReadColumn(const CsvTable& table, std::size_t inde
 }
 
 }  // namespace
+
+std::string ActuatorFault(double value, ActuatorQuantity quantity, bool of_chamber) {
+  if (quantity == ActuatorQuantity::kTension) {
+    if (!of_chamber && value < 0.0) return "a tension is never negative (a cable cannot push)";
+    if (of_chamber && value < kVacuum_Pa) {
+      return "below a vacuum: pressures count from ambient, the lowest is " +
+             FormatNumber(kVacuum_Pa) + " Pa";
+    }
+    return {};
+  }
+  if (!of_chamber && std::abs(value) > kLargestDisplacement_m) {
+    return "more than " + FormatNumber(kLargestDisplacement_m) +
+           " m; metres are expected, are these millimetres?";
+  }
+  if (of_chamber && std::abs(value) > kLargestVolume_m3) {
+    return "more than " + FormatNumber(kLargestVolume_m3) +
+           " m3; cubic metres are expected, are these millilitres?";
+  }
+  return {};
+}
 
 std::string ActuatorColumn::Header() const {
   const auto suffix = std::find_if(kSuffixes.begin(), kSuffixes.end(), [&](const Suffix& one) {

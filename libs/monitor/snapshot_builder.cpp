@@ -184,9 +184,12 @@ void SnapshotBuilder::Add(const idl::sensor_msgs::JointState& message, double no
   cables_.Add(now_s, std::nullopt);
   CablesState& state = snapshot_.cables.emplace();
   for (std::size_t i = 0; i < message.name._length; ++i) {
-    state.cables.push_back({.name = ToText(message.name._buffer[i]),
+    std::string name = ToText(message.name._buffer[i]);
+    const bool is_chamber = chambers_.contains(name);
+    state.cables.push_back({.name = std::move(name),
                             .displacement_m = NumberAt(message.position, i),
-                            .tension_N = NumberAt(message.effort, i)});
+                            .tension_N = NumberAt(message.effort, i),
+                            .is_chamber = is_chamber});
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,9 @@ class SnapshotBuilder {
   void Add(const idl::sensor_msgs::JointState& message, double now_s);
   void Add(const idl::palpate_msgs::CalibrationStatus& message);
 
+  /// The joints that are chambers; at first none. Joint states do not say it.
+  void SetChambers(std::set<std::string> chambers) { chambers_ = std::move(chambers); }
+
   /// Processes that have reported.
   std::size_t processes() const { return processes_.size(); }
 
@@ -48,6 +52,7 @@ class SnapshotBuilder {
     double report_s = 0.0;
   };
 
+  std::set<std::string> chambers_;
   std::map<std::string, Reported> processes_;  ///< by name
   std::map<std::string, Values> values_;       ///< of /diagnostics, by the process' name
   std::map<std::string, Other> others_;        ///< by name

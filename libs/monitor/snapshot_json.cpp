@@ -101,12 +101,15 @@ Json ToJson(const MeshShapeState& state) {
 
 Json ToJson(const CablesState& state) {
   Json cables = Json::array();
+  Json chambers = Json::array();
   for (const CableValue& cable : state.cables) {
-    cables.push_back({{"name", cable.name},
-                      {"displacement_m", Number(cable.displacement_m)},
-                      {"tension_N", Number(cable.tension_N)}});
+    Json& list = cable.is_chamber ? chambers : cables;
+    list.push_back(
+        {{"name", cable.name},
+         {cable.is_chamber ? "volume_m3" : "displacement_m", Number(cable.displacement_m)},
+         {cable.is_chamber ? "pressure_Pa" : "tension_N", Number(cable.tension_N)}});
   }
-  return With(FlowJson(state.flow), {{"cables", cables}});
+  return With(FlowJson(state.flow), {{"cables", cables}, {"chambers", chambers}});
 }
 
 Json ToJson(const CalibrationState& state) {

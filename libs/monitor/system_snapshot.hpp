@@ -114,10 +114,12 @@ struct MeshShapeState {
   std::string status;
 };
 
+/// Of a cable, or of a chamber with its change of volume, m3, and pressure above ambient, Pa.
 struct CableValue {
   std::string name;
   double displacement_m = 0.0;  ///< NaN: not told
   double tension_N = 0.0;       ///< NaN: not told
+  bool is_chamber = false;
 };
 
 /// The last message of /robot/joint_states.

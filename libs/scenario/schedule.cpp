@@ -40,8 +40,8 @@ Schedule::Schedule(Scenario scenario, std::vector<std::string> cables)
   for (const RecordingPlan& plan : scenario_.recordings) {
     for (const std::string& cable : plan.commands.cables) {
       if (std::find(cables_.begin(), cables_.end(), cable) == cables_.end()) {
-        throw InputError("recording '" + plan.name + "': the robot has no cable '" + cable + "'" +
-                         DidYouMean(cable, cables_));
+        throw InputError("recording '" + plan.name + "': the robot has no actuator '" + cable +
+                         "'" + DidYouMean(cable, cables_));
       }
     }
     starts_s_.push_back(starts_s_.back() + scenario_.rest_between_s + plan.duration_s);

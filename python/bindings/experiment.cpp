@@ -82,8 +82,9 @@ TemporaryFolders& Folders() {
 
 /// The experiment and the temporary folder that it is in end together.
 struct HeldExperiment {
-  HeldExperiment(const std::string& data, const std::vector<std::string>& remap)
-      : folder(data, remap, app::LoadYaml, [this](const std::filesystem::path& made) {
+  HeldExperiment(const std::string& data, const std::vector<std::string>& remap,
+                 const std::string& robot)
+      : folder(data, remap, robot, app::LoadYaml, [this](const std::filesystem::path& made) {
           if (made.empty()) {
             Folders().Remove(temporary);
           } else {
@@ -97,8 +98,8 @@ struct HeldExperiment {
 };
 
 ExperimentPtr ReadMessages(const std::string& data, const std::vector<std::string>& remap,
-                           std::vector<std::string>* notes) {
-  const auto held = std::make_shared<HeldExperiment>(data, remap);
+                           const std::string& robot, std::vector<std::string>* notes) {
+  const auto held = std::make_shared<HeldExperiment>(data, remap, robot);
   *notes = held->folder.notes();
   try {
     held->read = experiment::ReadExperiment(held->folder.path(), app::LoadYaml);
@@ -108,10 +109,11 @@ ExperimentPtr ReadMessages(const std::string& data, const std::vector<std::strin
   return {held, &held->read};
 }
 
-OpenExperiment Open(const std::string& data, const std::vector<std::string>& remap) {
+OpenExperiment Open(const std::string& data, const std::vector<std::string>& remap,
+                    const std::string& robot) {
   const py::gil_scoped_release released;
   OpenExperiment open;
-  open.data = offline::HoldsMessages(data) ? ReadMessages(data, remap, &open.messages)
+  open.data = offline::HoldsMessages(data) ? ReadMessages(data, remap, robot, &open.messages)
                                            : ReadFolder(data, remap);
   for (std::size_t k = 0; k < open.data->recordings.size(); ++k) {
     open.recordings.push_back(std::make_shared<Recording>(open.data, k));
@@ -263,7 +265,7 @@ void BindExperiment(py::module_& module) {
   BindRecording(module);
   py::class_<OpenExperiment>(module, "Experiment", "A folder of measured data.")
       .def(py::init(&Open), py::arg("data"), py::kw_only(),
-           py::arg("remap") = std::vector<std::string>())
+           py::arg("remap") = std::vector<std::string>(), py::arg("robot") = "")
       .def_property_readonly("folder",
                              [](const OpenExperiment& open) { return open.data->folder.string(); })
       .def_property_readonly("robot",

@@ -287,9 +287,10 @@ class Recording:
 
 class Experiment:
     """Measured data: a folder, or recorded messages (MCAP, .db3 of rosbag2, or a folder of them),
-    which are made into a temporary experiment. `remap`: "FROM:=TO", as --remap of the programs."""
+    which are made into a temporary experiment. `remap`: "FROM:=TO", as --remap of the programs.
+    `robot`: the robot file that says which of the joints are chambers; "": the one in the recording."""
 
-    def __init__(self, data: str, *, remap: Sequence[str] = ()) -> None: ...
+    def __init__(self, data: str, *, remap: Sequence[str] = (), robot: str = "") -> None: ...
     @property
     def folder(self) -> str: ...  # that of messages ends with the experiment and its recordings
     @property

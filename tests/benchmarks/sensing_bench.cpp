@@ -18,6 +18,8 @@
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/sensing_frames.hpp"
 #include "tests/benchmarks/sensing_sets.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/support/sensing/sensing_scene.hpp"
 
 namespace palpate::benchmarks {
 
@@ -29,6 +31,7 @@ using Eyes = SensingSets::Eyes;
 using Onlooker = SensingSets::Onlooker;
 
 constexpr double kWantedError = 0.1;  ///< of a hidden force
+constexpr double kLargestPressure_Pa = 13e3;
 
 int NumberFrom(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
@@ -170,6 +173,31 @@ Benchmark OfWeights(const SharedSets& sets, Eyes eyes, const char* name, bool gi
           .max_repetitions = 1};
 }
 
+/// Contacts of a robot that is driven by air: on the upper half of the finger, where they move its
+/// tip by 3 to 14 mm.
+std::vector<Benchmark> OfFinger(const SensingSize& size) {
+  const SharedSets sets = MakeLazy<SensingSets>([size] {
+    return std::make_unique<SensingSets>(size, test_support::ReadRobot("pneumatic_finger"),
+                                         test_support::FingerBallScenario(), kLargestPressure_Pa);
+  });
+  const ContactWish wish{.where = ContactWish::Where::kVisible,
+                         .smallest_N = 0.05,
+                         .largest_N = 0.2,
+                         .above_clamp_m = 0.055,
+                         .visible_share = 0.5,
+                         .patch_radius_m = 0.006};
+  std::vector<Benchmark> found;
+  for (const Eyes eyes : {Eyes::kPerception, Eyes::kIdeal}) {
+    Benchmark touches = OfTouches(sets, {.eyes = eyes}, "one_visible", wish, size.contacts);
+    touches.name.insert(std::string("sensing/").size(), "pneumatic_finger/");
+    found.push_back(std::move(touches));
+  }
+  Benchmark bounds = OfBounds(sets, "one_visible", wish, size.contacts);
+  bounds.name.insert(std::string("sensing/").size(), "pneumatic_finger/");
+  found.push_back(std::move(bounds));
+  return found;
+}
+
 }  // namespace
 
 std::vector<Block> SensingBlocks() {
@@ -205,6 +233,7 @@ std::vector<Block> SensingBlocks() {
   add(OfBounds(sets, "one_visible", {.where = Where::kVisible}, size.contacts));
   add(OfBounds(sets, "one_hidden", {.where = Where::kHidden}, half));
   add_contacts({.eyes = Eyes::kPerception, .cameras = 2});
+  for (Benchmark& set : OfFinger(size)) add(std::move(set));
   return blocks;
 }
 

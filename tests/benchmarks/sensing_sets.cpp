@@ -58,7 +58,14 @@ double MedianSmallestForce_N(SensingChain& chain) {
 }  // namespace
 
 SensingSets::SensingSets(const SensingSize& size)
-    : size_(size), scene_(FourLegRobot(), ScenarioOf(size), size.seed) {}
+    : SensingSets(size, FourLegRobot(), ScenarioOf(size), kLargestCable_m) {}
+
+SensingSets::SensingSets(const SensingSize& size, const robot::RobotDescription& robot,
+                         const scenario::Scenario& scenario, double largest_command)
+    : size_(size),
+      robot_(robot),
+      largest_command_(largest_command),
+      scene_(robot, scenario, size.seed) {}
 
 SensingChain& SensingSets::ChainOf(const Onlooker& onlooker) {
   std::unique_ptr<SensingChain>& chain = chains_[onlooker];
@@ -67,8 +74,8 @@ SensingChain& SensingSets::ChainOf(const Onlooker& onlooker) {
     settings.eyes = onlooker.eyes;
     settings.cameras = onlooker.cameras;
     settings.weights_given = onlooker.weights_given;
-    chain = std::make_unique<SensingChain>(FourLegRobot(), scene_, settings, size_.seed);
-    chain->Learn(kLearningFrames, kPostures, kLargestCable_m);
+    chain = std::make_unique<SensingChain>(robot_, scene_, settings, size_.seed);
+    chain->Learn(kLearningFrames, kPostures, largest_command_);
   }
   if (!scene_.Start(scene_.Nothing()).ok()) throw RunError("the virtual robot does not hang");
   return *chain;
@@ -78,7 +85,7 @@ const std::vector<SensingSets::Path>& SensingSets::PathsOf(const ContactWish& wi
   std::vector<Path>& paths = paths_[KeyOf(wish, count)];
   if (!paths.empty()) return paths;
   ContactWish with_cables = wish;
-  with_cables.largest_cable_m = kLargestCable_m;
+  with_cables.largest_command = largest_command_;
   if (!scene_.Start(scene_.Nothing()).ok()) throw RunError("the virtual robot does not hang");
   test_support::ContactGenerator generator(scene_, with_cables, size_.seed);
   while (static_cast<int>(paths.size()) < count && generator.Next()) {
@@ -112,7 +119,7 @@ Watched SensingSets::FirstPictures(const Onlooker& onlooker, const ContactWish& 
 
 std::vector<test_support::ForceBound> SensingSets::Bounds(const ContactWish& wish, int count) {
   const std::vector<Path>& paths = PathsOf(wish, count);
-  robot::RobotModel model(robot::BuildRobotBody(FourLegRobot()));
+  robot::RobotModel model(robot::BuildRobotBody(robot_));
   test_support::ForceBounds bounds(model, force_estimation::ShapeConfig());
   test_support::IdealPerception ideal(scene_);
   const auto take = [&] {

@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "components/force_estimation/shape/shape_frame.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "libs/scenario/scenario.hpp"
 #include "tests/support/sensing/contact_generator.hpp"
 #include "tests/support/sensing/force_bound.hpp"
 #include "tests/support/sensing/sensing_chain.hpp"
+#include "tests/support/sensing/sensing_scene.hpp"
 #include "tests/support/sensing/watch.hpp"
 
 namespace palpate::benchmarks {
@@ -59,9 +62,14 @@ class SensingSets {
     auto operator<=>(const Onlooker&) const = default;
   };
 
+  /// Of the four-legged robot.
   explicit SensingSets(const SensingSize& size);
+  /// Of another one; its actuators are commanded by 0 to `largest_command`, m or Pa.
+  SensingSets(const SensingSize& size, const robot::RobotDescription& robot,
+              const scenario::Scenario& scenario, double largest_command);
 
-  /// `count` of them, with cables pulled in by up to 3 mm. Throws RunError where there are none.
+  /// `count` of them, with cables pulled in by up to 3 mm (`largest_command`). Throws RunError
+  /// where there are none.
   test_support::Watched Touches(const Onlooker& onlooker, const test_support::ContactWish& wish,
                                 int count);
 
@@ -93,6 +101,8 @@ class SensingSets {
   const std::vector<Path>& PathsOf(const test_support::ContactWish& wish, int count);
 
   SensingSize size_;
+  robot::RobotDescription robot_;
+  double largest_command_;
   test_support::SensingScene scene_;
   std::map<std::string, std::vector<Path>> paths_;
   std::map<Onlooker, std::unique_ptr<test_support::SensingChain>> chains_;

@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "libs/core/error.hpp"
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/actuator_fault.hpp"
 
 namespace palpate::offline {
 
 namespace {
 
 using experiment::ActuatorQuantity;
-
-constexpr double kLargestPull_m = 2.0;  ///< of actuation.csv
 
 /// The number that a table with this time would be read as.
 double TableTime(std::int64_t t_ns) { return static_cast<double>(t_ns) / 1e9; }
@@ -68,13 +68,14 @@ void AddReference(const std::vector<const CollectedMarkers*>& frames,
   }
 }
 
-std::string CheckJoint(const CollectedJoint& joint) {
-  if (joint.effort_N && *joint.effort_N < 0.0) {
-    return "effort " + FormatNumber(*joint.effort_N) + ": a cable cannot push";
-  }
-  if (joint.position_m && std::abs(*joint.position_m) > kLargestPull_m) {
-    return "position " + FormatNumber(*joint.position_m) + ": a cable is pulled by at most " +
-           FormatNumber(kLargestPull_m) + " m";
+/// What of a joint no table may hold; empty: nothing.
+std::string CheckJoint(const CollectedJoint& joint, bool of_chamber) {
+  for (const auto& [word, input, quantity] :
+       {std::tuple("position ", joint.position_m, ActuatorQuantity::kDisplacement),
+        std::tuple("effort ", joint.effort_N, ActuatorQuantity::kTension)}) {
+    if (!input) continue;
+    std::string fault = experiment::ActuatorFault(*input, quantity, of_chamber);
+    if (!fault.empty()) return word + FormatNumber(*input) + ": " + fault;
   }
   return {};
 }
@@ -133,28 +134,35 @@ void AddMarkers(const CollectedTopics& topics, const Phase& phase, const MarkerF
 
 ActuationRows::ActuationRows(const CollectedTopics& topics,
                              const std::map<std::string, std::string>& cables,
-                             const TopicRoles& roles) {
+                             const std::vector<std::string>& chambers, const TopicRoles& roles)
+    : chambers_(chambers) {
   for (const CollectedJoints& set : topics.joints) {
     auto& row = rows_[{set.time.segment, set.time.t_ns}];
     for (CollectedJoint joint : set.joints) {
       const auto cable = cables.find(joint.name);
       if (!cables.empty() && cable == cables.end()) continue;
-      if (std::string fault = CheckJoint(joint); !fault.empty()) {
+      const std::string name = cable != cables.end() ? cable->second : joint.name;
+      const bool of_chamber = IndexOf(name, chambers_).has_value();
+      if (std::string fault = CheckJoint(joint, of_chamber); !fault.empty()) {
         const std::string& topic = roles.names.at(kJointStatesTopic);
         throw InputError(topic + ": joint '" + joint.name + "', " + fault +
-                         "; where the joints are no cables, leave the topic out with --remap " +
+                         (of_chamber ? ""
+                                     : "; joints are chambers where the robot file says so, given "
+                                       "with --robot or attached to the recording") +
+                         "; where the joints are no actuators, leave the topic out with --remap " +
                          topic +
                          ":=/unused, or name those that are under `cables` in the file of "
                          "phases");
       }
-      if (cable != cables.end()) joint.name = cable->second;
+      joint.name = name;
       row.emplace(joint.name, joint);
     }
   }
 }
 
 /// All rows of a segment, one column for each input that a message has.
-ActuationRows::Part ActuationRows::PartOf(const Rows& rows, int segment) {
+ActuationRows::Part ActuationRows::PartOf(const Rows& rows,
+                                          const std::vector<std::string>& chambers, int segment) {
   Part part;
   std::vector<const std::map<std::string, CollectedJoint>*> joints_of;
   std::vector<std::string> cables;
@@ -169,8 +177,11 @@ ActuationRows::Part ActuationRows::PartOf(const Rows& rows, int segment) {
   }
   const auto add = [&](const std::string& cable, ActuatorQuantity quantity,
                        std::optional<double> CollectedJoint::*input) {
-    experiment::ActuatorColumn column{
-        .cable = cable, .quantity = quantity, .samples = {}, .where = {}};
+    experiment::ActuatorColumn column{.cable = cable,
+                                      .quantity = quantity,
+                                      .samples = {},
+                                      .where = {},
+                                      .of_chamber = IndexOf(cable, chambers).has_value()};
     bool any = false;
     for (const auto* joints : joints_of) {
       const auto joint = joints->find(cable);
@@ -215,7 +226,7 @@ experiment::Actuation ActuationRows::RowsWithin(const Part& all, const Phase& ph
 void ActuationRows::AddTo(const Phase& phase, experiment::Recording* recording) {
   auto part = parts_.find(phase.segment);
   if (part == parts_.end())
-    part = parts_.emplace(phase.segment, PartOf(rows_, phase.segment)).first;
+    part = parts_.emplace(phase.segment, PartOf(rows_, chambers_, phase.segment)).first;
   if (part->second.table.columns.empty()) return;
   recording->actuation = RowsWithin(part->second, phase);
 }

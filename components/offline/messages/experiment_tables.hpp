@@ -29,13 +29,13 @@ void AddLoads(const CollectedTopics& topics, const Phase& phase, const PhaseFile
               const TopicRoles& roles, experiment::Recording* recording,
               std::vector<std::string>* notes);
 
-/// The cable inputs of all phases, put into rows once.
+/// The inputs of all phases, put into rows once.
 class ActuationRows {
  public:
-  /// `cables`: joint -> cable; empty: joints have the names of cables. Throws InputError as
-  /// AddMarkers.
+  /// `cables`: joint -> actuator; empty: joints have the names of actuators. Those named in
+  /// `chambers` are chambers, all others cables. Throws InputError as AddMarkers.
   ActuationRows(const CollectedTopics& topics, const std::map<std::string, std::string>& cables,
-                const TopicRoles& roles);
+                const std::vector<std::string>& chambers, const TopicRoles& roles);
 
   void AddTo(const Phase& phase, experiment::Recording* recording);
 
@@ -48,9 +48,10 @@ class ActuationRows {
     experiment::Actuation table;
   };
 
-  static Part PartOf(const Rows& rows, int segment);
+  static Part PartOf(const Rows& rows, const std::vector<std::string>& chambers, int segment);
   static experiment::Actuation RowsWithin(const Part& all, const Phase& phase);
 
+  std::vector<std::string> chambers_;
   Rows rows_;
   std::map<int, Part> parts_;  ///< by segment, made where it is first needed
 };

@@ -21,6 +21,7 @@
 #include "libs/core/text.hpp"
 #include "libs/experiment/folders.hpp"
 #include "libs/geometry/frames.hpp"
+#include "libs/robot/robot_description.hpp"
 
 namespace palpate::offline {
 
@@ -88,10 +89,12 @@ std::vector<Phase> PhasesOfSegments(const CollectedTopics& topics) {
 
 class ExperimentMaker {
  public:
-  ExperimentMaker(const fs::path& target, const std::vector<std::string>& remap, fs::path out,
-                  const ConfigLoader& load)
+  ExperimentMaker(const fs::path& target, const std::vector<std::string>& remap, fs::path robot,
+                  fs::path out, const ConfigLoader& load)
       : target_(target),
+        robot_(std::move(robot)),
         out_(std::move(out)),
+        load_(load),
         recorded_(recording::MessageFilesOf(target)),
         roles_(FindTopics(recorded_, remap)),
         topics_(CollectTopics(recorded_, roles_)) {
@@ -109,10 +112,10 @@ class ExperimentMaker {
       notes_.push_back("t_s counts from " + FormatNumber(1e-9 * static_cast<double>(origin_ns)) +
                        " s since the epoch");
     }
-    actuation_.emplace(topics_, file_.cables, roles_);
+    WriteAttachments();
+    actuation_.emplace(topics_, file_.cables, FindChambers(), roles_);
     for (Phase& phase : phases) Add(std::move(phase));
     if (experiment_.recordings.empty()) Refuse("no phase holds images or markers");
-    WriteAttachments();
     experiment::WriteExperiment(experiment_, out_);
     WriteCameras();
     const std::size_t notes_before = notes_.size();
@@ -198,6 +201,30 @@ class ExperimentMaker {
     if (experiment_.notes.empty()) experiment_.notes = "made from " + target_.string();
   }
 
+  /// Of the robot file that is known.
+  std::vector<std::string> FindChambers() {
+    std::vector<std::string> chambers;
+    if (topics_.joints.empty()) return chambers;
+    const fs::path& robot = robot_.empty() ? experiment_.robot.value_or(fs::path()) : robot_;
+    if (robot.empty()) {
+      notes_.push_back(
+          "joint states are taken for cables: no robot file is known that says which are "
+          "chambers (--robot, or one attached to the recording)");
+      return chambers;
+    }
+    try {
+      for (const auto& chamber : robot::ReadRobotFile(robot, load_).chambers) {
+        chambers.push_back(chamber.name);
+      }
+    } catch (const InputError& error) {
+      if (!robot_.empty()) throw;
+      notes_.push_back(
+          "joint states are taken for cables: the attached robot file cannot be read: " +
+          std::string(error.what()));
+    }
+    return chambers;
+  }
+
   void Add(Phase phase) {
     experiment::Recording& recording = phase.recording;
     AddMarkers(topics_, phase, {file_.robot_frame, camera_.frame_ids}, &recording, &notes_);
@@ -247,7 +274,9 @@ class ExperimentMaker {
   }
 
   fs::path target_;
+  fs::path robot_;  ///< empty: not given
   fs::path out_;
+  const ConfigLoader& load_;
   recording::RecordedMessages recorded_;
   TopicRoles roles_;
   CollectedTopics topics_;
@@ -263,9 +292,10 @@ class ExperimentMaker {
 }  // namespace
 
 std::vector<std::string> MakeExperiment(const fs::path& target,
-                                        const std::vector<std::string>& remap, const fs::path& out,
+                                        const std::vector<std::string>& remap,
+                                        const fs::path& robot, const fs::path& out,
                                         const ConfigLoader& load) {
-  return ExperimentMaker(target, remap, out, load).Run();
+  return ExperimentMaker(target, remap, robot, out, load).Run();
 }
 
 }  // namespace palpate::offline

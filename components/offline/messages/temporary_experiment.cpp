@@ -37,14 +37,15 @@ bool HoldsMessages(const fs::path& data) {
 
 TemporaryExperiment::TemporaryExperiment(const fs::path& data,
                                          const std::vector<std::string>& remap,
-                                         const ConfigLoader& load, Watch watch)
+                                         const fs::path& robot, const ConfigLoader& load,
+                                         Watch watch)
     : data_(data),
       folder_(MakeTemporaryFolder()),
       path_(folder_ / "experiment"),
       watch_(std::move(watch)) {
   if (watch_) watch_(folder_);
   try {
-    notes_ = MakeExperiment(data, remap, path_, load);
+    notes_ = MakeExperiment(data, remap, robot, path_, load);
   } catch (...) {
     Remove();
     throw;

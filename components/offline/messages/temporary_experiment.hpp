@@ -23,7 +23,8 @@ class TemporaryExperiment {
 
   /// Throws as MakeExperiment; RunError where no folder can be made.
   TemporaryExperiment(const std::filesystem::path& data, const std::vector<std::string>& remap,
-                      const ConfigLoader& load, Watch watch = {});
+                      const std::filesystem::path& robot, const ConfigLoader& load,
+                      Watch watch = {});
   ~TemporaryExperiment();
   TemporaryExperiment(const TemporaryExperiment&) = delete;
   TemporaryExperiment& operator=(const TemporaryExperiment&) = delete;

@@ -198,7 +198,7 @@ int Calibrate(const CalibrateOptions& options) {
       LoadRobot(options.robot, options.solver, {}, kSigmasOfRoom * options.cable_eyelet_sigma_m);
   std::optional<EndOnSignal> end_on_signal;
   end_on_signal.emplace("palpate calibrate", "no calibration was written");
-  const DataFolder data(options.data, options.remap);
+  const DataFolder data(options.data, options.remap, FindRobotFile(options.robot));
   robot::CalibrationFile file;
   data.Run([&](const std::filesystem::path& folder) {
     const auto experiment = experiment::ReadExperiment(folder, app::LoadYaml);

@@ -65,7 +65,7 @@ int Estimate(const EstimateOptions& options) {
   CheckOptions(options);
   std::optional<EndOnSignal> end_on_signal;
   end_on_signal.emplace("palpate estimate", "no force was estimated");
-  const DataFolder data(options.data, options.remap);
+  const DataFolder data(options.data, options.remap, FindRobotFile(options.robot));
   end_on_signal.reset();  // from here on what is estimated so far is kept
   return data.Run(
       [&](const std::filesystem::path& folder) { return EstimateInFolder(folder, options); });

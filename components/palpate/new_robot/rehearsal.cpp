@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/palpate/camera_place.hpp"
 #include "components/palpate/new_robot/marker_guess.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
@@ -36,17 +37,6 @@ struct Stage {
   double depth_m = 0.0;                            ///< by which it goes beyond the surface at rest
 };
 
-/// Sideways of the body's longest axis, from above, and a little from its free end.
-Eigen::Vector3d ViewFrom(const RobotDraft& draft, const Eigen::Vector3d& up) {
-  Eigen::Vector3d side = draft.shape.axes.col(0).cross(up);
-  if (side.norm() < 0.3) side = up.unitOrthogonal();
-  Eigen::Vector3d to_tip = draft.shape.centroid_m - draft.fixed.centre_m;
-  to_tip -= to_tip.dot(up) * up;
-  const double length_m = to_tip.norm();
-  if (length_m > 0.0) to_tip /= length_m;
-  return (side.normalized() + 0.45 * up + 0.25 * to_tip).normalized();
-}
-
 /// The face that the camera sees best, about three quarters of the way to the tip.
 void ChoosePush(const RobotDraft& draft, Stage* stage) {
   const BodyShape& shape = draft.shape;
@@ -73,19 +63,11 @@ void ChoosePush(const RobotDraft& draft, Stage* stage) {
 }
 
 Stage MakeStage(const RobotDraft& draft) {
-  // Lenses of 59 degrees up and down see the diagonal from 1.5 of it; nearer than 0.25 m stereo
-  // cameras see nothing.
-  constexpr double kDiagonals = 1.5, kNearest_m = 0.25;
   const BodyShape& shape = draft.shape;
   Stage stage;
   const Eigen::Vector3d up = -draft.description.gravity_m_s2.normalized();
-  const double distance_m = std::max(kNearest_m, kDiagonals * shape.diagonal_m);
-  stage.view = ViewFrom(draft, up);
-  // Camera axes: x to the right, y down, z forward.
-  const Eigen::Vector3d right = up.cross(stage.view).normalized();
-  stage.T_robot_camera.linear() << right, right.cross(stage.view), -stage.view;
-  stage.T_robot_camera.translation() =
-      0.5 * (shape.box.lower_m + shape.box.upper_m) + distance_m * stage.view;
+  stage.view = ViewDirection(shape.axes.col(0), up, shape.centroid_m - draft.fixed.centre_m);
+  stage.T_robot_camera = CameraPlace(shape.box, stage.view, up);
   ChoosePush(draft, &stage);
   stage.radius_m = std::max(0.05 * shape.diagonal_m, shape.element_m);
   // A long body bends away from the ball, a compact one is dented.
@@ -131,17 +113,6 @@ std::string PushText(const Stage& stage) {
          at(7.0, -away_m);
 }
 
-std::string CameraText(const Stage& stage) {
-  const std::string image =
-      "    width_px: 848\n    height_px: 480\n    fx_px: 425\n"
-      "    fy_px: 425\n    cx_px: 423.5\n    cy_px: 239.5\n";
-  std::string text = "camera:\n  depth:\n" + image + "    unit_m: 0.0001\n    baseline_m: 0.05\n" +
-                     "  color:\n" + image + "    registered_to_depth: true\n";
-  text += "  T_robot_camera: " + geometry::FormatPose(stage.T_robot_camera) +
-          "\n  rate_hz: 10\n  noise: {sensor: stereo}\n";
-  return text;
-}
-
 std::string ScenarioText(const RobotDraft& draft, const Stage& stage) {
   const double pull_m = 0.02 * draft.shape.diagonal_m;
   std::string text =
@@ -162,7 +133,7 @@ std::string ScenarioText(const RobotDraft& draft, const Stage& stage) {
       "tools:\n  - {{name: ball, shape: sphere, radius_m: {:.6f}, "
       "friction_coefficient: 0.3, color_rgb: [0.15, 0.30, 0.80]}}\n",
       stage.radius_m);
-  text += CameraText(stage);
+  text += StereoCameraText(stage.T_robot_camera, 10.0);
   if (!draft.description.markers.empty()) text += "markers: {sigma_m: 3.0e-4, rate_hz: 10}\n";
   text +=
       "rest_between_s: 1\nrecordings:\n" + RecordingText(draft, "01_rest", "rest", kRest_s, 0.0, 0);

@@ -15,14 +15,16 @@ namespace palpate::command {
 
 namespace fs = std::filesystem;
 
-DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& remap) : path_(data) {
+DataFolder::DataFolder(const fs::path& data, const std::vector<std::string>& remap,
+                       const fs::path& robot)
+    : path_(data) {
   if (!offline::HoldsMessages(data)) {
     if (remap.empty()) return;
     throw InputError({data.string()},
                      "holds no recorded messages, so that --remap means nothing; leave it out");
   }
-  made_ =
-      std::make_unique<offline::TemporaryExperiment>(data, remap, app::LoadYaml, RemoveOnSignal);
+  made_ = std::make_unique<offline::TemporaryExperiment>(data, remap, robot, app::LoadYaml,
+                                                         RemoveOnSignal);
   path_ = made_->path();
   for (const std::string& note : made_->notes()) {
     fmt::print(stderr, "{}: {}\n", data.string(), note);

@@ -18,9 +18,11 @@ namespace palpate::command {
 /// into an experiment in a folder that ends with this.
 class DataFolder {
  public:
-  /// Prints on the standard error output what was made of the messages. Throws as MakeExperiment;
-  /// InputError, too, where `remap` is given for a folder.
-  DataFolder(const std::filesystem::path& data, const std::vector<std::string>& remap);
+  /// Prints on the standard error output what was made of the messages, of the robot of that file
+  /// (MakeExperiment). Throws as MakeExperiment; InputError, too, where `remap` is given for a
+  /// folder.
+  DataFolder(const std::filesystem::path& data, const std::vector<std::string>& remap,
+             const std::filesystem::path& robot);
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -14,6 +14,7 @@
 #include "components/offline/messages/make_experiment.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/end_on_signal.hpp"
+#include "components/palpate/find_robot.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
 #include "components/palpate/recordings/export_messages.hpp"
 #include "libs/app/run_main.hpp"
@@ -30,6 +31,7 @@ struct ExportCommand {
   std::string clouds = "ply";
   std::filesystem::path experiment;  ///< folder to make instead; empty: none
   std::vector<std::string> remap;
+  std::filesystem::path robot;  ///< empty: the one attached to the recording
   bool json = false;
 };
 
@@ -72,8 +74,9 @@ std::vector<std::string> MakeWhole(const ExportCommand& command) {
   const EndOnSignal end_on_signal("palpate export", out.string() + " is removed");
   RemoveOnSignal(out);
   try {
-    std::vector<std::string> notes =
-        offline::MakeExperiment(command.file, command.remap, out, app::LoadYaml);
+    std::vector<std::string> notes = offline::MakeExperiment(
+        command.file, command.remap,
+        command.robot.empty() ? command.robot : FindRobotFile(command.robot), out, app::LoadYaml);
     RemoveOnSignal({});
     return notes;
   } catch (...) {
@@ -106,6 +109,7 @@ int Export(ExportCommand command) {
   }
   if (out.empty()) return ExportExperiment(command);
   if (!command.remap.empty()) throw InputError("--remap is for --experiment; leave it out");
+  if (!command.robot.empty()) throw InputError("--robot is for --experiment; leave it out");
   CheckNewFolder(out);
   command.options.clouds = command.clouds == "pcd" ? CloudFormat::kPcd : CloudFormat::kPly;
   const recording::RecordedMessages reader(FilesOf(command.file));
@@ -129,6 +133,9 @@ app::Verb ExportVerb() {
             arguments.Option("--experiment FOLDER", &command->experiment,
                              "New or empty folder: make an experiment of the topics instead");
             DeclareRemap(arguments, &command->remap);
+            DeclareRobotOption(arguments, &command->robot,
+                               "the robot whose file says which joints are chambers; without it "
+                               "the one attached to the recording");
             arguments.Repeated("--topic NAME", &command->options.topics,
                                "Export this topic; without it all");
             arguments.Choice("--clouds FORMAT", &command->clouds, {"ply", "pcd"},

@@ -4,7 +4,9 @@
 #include "components/view/node/convert_texts.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/view/frames/binary_frame.hpp"
 #include "libs/dds/geometry_messages.hpp"
@@ -87,17 +89,23 @@ OutMessage ModelErrorMessage(const idl::palpate_msgs::ModelGap& message,
                                               {"judgement", judgement}}));
 }
 
-OutMessage CablesMessage(const idl::sensor_msgs::JointState& message) {
+OutMessage CablesMessage(const idl::sensor_msgs::JointState& message,
+                         const std::vector<std::string>& chambers) {
   Json cables = Json::array();
+  Json filled = Json::array();
   for (std::size_t i = 0; i < message.name._length; ++i) {
-    cables.push_back({{"name", StringOf(message.name._buffer[i])},
-                      {"displacement_m", NumberAt(message.position, i)},
-                      {"tension_N", NumberAt(message.effort, i)}});
+    std::string name = StringOf(message.name._buffer[i]);
+    const bool is_chamber = std::find(chambers.begin(), chambers.end(), name) != chambers.end();
+    Json& list = is_chamber ? filled : cables;
+    list.push_back({{"name", std::move(name)},
+                    {is_chamber ? "volume_m3" : "displacement_m", NumberAt(message.position, i)},
+                    {is_chamber ? "pressure_Pa" : "tension_N", NumberAt(message.effort, i)}});
   }
   return TextMessage("cables",
                      JsonText({{"kind", "cables"},
                                {"stamp_ns", StampText(message.header.stamp)},
-                               {"cables", std::move(cables)}}),
+                               {"cables", std::move(cables)},
+                               {"chambers", std::move(filled)}}),
                      Delivery::kLatest);
 }
 

@@ -20,7 +20,9 @@ OutMessage ForcesMessage(const std::string& kind, const idl::palpate_msgs::Force
 OutMessage ModelErrorMessage(const idl::palpate_msgs::ModelGap& message,
                              const std::string& judgement);
 
-OutMessage CablesMessage(const idl::sensor_msgs::JointState& message);
+/// Joints whose names are in `chambers` are chambers, with volume_m3 and pressure_Pa.
+OutMessage CablesMessage(const idl::sensor_msgs::JointState& message,
+                         const std::vector<std::string>& chambers);
 
 /// One topic that is shown.
 struct TopicState {

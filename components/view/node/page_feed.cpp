@@ -163,7 +163,10 @@ void PageFeed::Take(const idl::diagnostic_msgs::DiagnosticArray& message) {
 void PageFeed::Take(const idl::sensor_msgs::JointState& message) {
   builder_.Add(message, Count("/robot/joint_states", std::nullopt));
   probe_.Take(message);
-  if (cables_limit_.Pass(MonotonicNow_ns())) outputs_.publish(CablesMessage(message));
+  if (cables_limit_.Pass(MonotonicNow_ns())) {
+    outputs_.publish(CablesMessage(
+        message, robot_ == nullptr ? std::vector<std::string>() : robot_->model().ChamberNames()));
+  }
 }
 
 void PageFeed::Take(const idl::palpate_msgs::CalibrationStatus& message) {

@@ -3,6 +3,7 @@
 
 #include "components/view/robot/known_robot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -114,7 +115,10 @@ Status KnownRobot::SmallestForce(const ProbedPlace& place, const Eigen::VectorXd
   if (measured.rows.empty()) {
     return {StatusCode::kNoRobotSeen, "nothing of the robot is measured now"};
   }
-  const Eigen::VectorXd pull_N = tension_N.array().isNaN().select(0.0, tension_N).cwiseMax(0.0);
+  Eigen::VectorXd pull_N = tension_N.array().isNaN().select(0.0, tension_N);
+  for (int a = 0; a < model_.ActuatorCount(); ++a) {
+    pull_N[a] = std::max(pull_N[a], model_.traits(a).least_force_N);
+  }
   fem::Linearisation& linearisation = model_.linearisation();
   const Eigen::VectorXd no_force_N = Eigen::VectorXd::Zero(x_m.size());
   if (!linearisation.Update(x_m, pull_N, no_force_N).ok()) {

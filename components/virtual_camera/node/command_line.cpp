@@ -24,7 +24,7 @@ Scene OpenScene(const Command& command) {
   const auto seed = static_cast<std::uint64_t>(command.seed);
   const scenario::RobotNames names = scenario::NamesOf(robot);
   scenario::CheckAgainst(scenario, names);
-  Scene scene{scenario::Schedule(scenario, names.cables),
+  Scene scene{scenario::Schedule(scenario, names.Actuators()),
               Sha256Hex(ReadFile(command.scenario)),
               seed,
               scenario::DrawEffects(scenario, names, seed),

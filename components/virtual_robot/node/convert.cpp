@@ -42,10 +42,10 @@ Status FromCommand(const idl::sensor_msgs::JointState& message,
     const auto cable = std::find(names.begin(), names.end(), name);
     if (cable == names.end()) {
       return {StatusCode::kInvalidInput,
-              "the robot has no cable '" + name + "'" + DidYouMean(name, names)};
+              "the robot has no actuator '" + name + "'" + DidYouMean(name, names)};
     }
     if (std::isinf(message.position._buffer[i])) {
-      return {StatusCode::kInvalidInput, "command of cable '" + name + "' is infinite"};
+      return {StatusCode::kInvalidInput, "command of '" + name + "' is infinite"};
     }
     commanded_m[cable - names.begin()] = message.position._buffer[i];
   }

@@ -64,7 +64,7 @@ class RecordedExperiment : public testing::Test {
 
 TEST_F(RecordedExperiment, HasTheMarkersAndForcesOfTheFolderBitForBit) {
   PlayAndRecord();
-  offline::MakeExperiment(file_, {}, folder_ / "made", app::LoadYaml);
+  offline::MakeExperiment(file_, {}, {}, folder_ / "made", app::LoadYaml);
   const auto made = experiment::ReadExperiment(folder_ / "made", app::LoadYaml);
   const auto played = experiment::ReadExperiment(kPlayedBeam, app::LoadYaml);
   ASSERT_EQ(made.recordings.size(), 2u);

@@ -93,7 +93,7 @@ bool ContactGenerator::Step(const scenario::BenchInputs& inputs) {
 
 bool ContactGenerator::Attempt() {
   Eigen::VectorXd displacement_m = cables_before_m_;
-  for (double& cable_m : displacement_m) cable_m = wish_.largest_cable_m * random_.Uniform();
+  for (double& cable_m : displacement_m) cable_m = wish_.largest_command * random_.Uniform();
   if (!Clear(displacement_m)) return false;
   sight_.Look();
   const std::vector<Ball> balls = DrawBalls();

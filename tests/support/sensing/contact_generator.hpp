@@ -26,8 +26,8 @@ struct ContactWish {
   double apart_m = 0.04;   ///< two at once are no closer
   /// Height of the place above the clamp at rest, at least: nearer the body hardly moves.
   double above_clamp_m = 0.025;
-  /// Each cable is pulled in by 0 to so much, at random.
-  double largest_cable_m = 0.0;
+  /// Each cable is pulled in, and each chamber filled, by 0 to so much at random: m, Pa.
+  double largest_command = 0.0;
   /// Visible: the camera sees so much of the surface within patch_radius_m of the place, the tool
   /// aside; hidden: it sees nothing of it. Before and after the push.
   double visible_share = 0.6;

@@ -45,7 +45,7 @@ std::vector<std::optional<rgbd::RgbdCamera>> SensingChain::Cameras() const {
   return cameras;
 }
 
-void SensingChain::Learn(int frames, int postures, double largest_cable_m) {
+void SensingChain::Learn(int frames, int postures, double largest_command) {
   scenario::BenchInputs inputs = scene_.Nothing();
   if (!scene_.Start(inputs).ok()) throw RunError("the virtual robot does not hang");
   const int each = frames / (postures + 1);
@@ -54,7 +54,7 @@ void SensingChain::Learn(int frames, int postures, double largest_cable_m) {
     const Eigen::VectorXd from_m = inputs.displacement_m;
     Eigen::VectorXd to_m = Eigen::VectorXd::Zero(from_m.size());
     if (posture < postures) {
-      for (double& cable_m : to_m) cable_m = largest_cable_m * random_.Uniform();
+      for (double& cable_m : to_m) cable_m = largest_command * random_.Uniform();
     }
     for (int step = 1; step <= kStepsToPosture && to_m != from_m; ++step) {
       inputs.displacement_m = from_m + (to_m - from_m) * step / kStepsToPosture;

@@ -56,8 +56,9 @@ class SensingChain {
                const ChainSettings& settings, std::uint64_t seed);
 
   /// Contact-free frames: at the scene's commands zero, then at `postures`
-  /// others, with each cable pulled in by 0 to `largest_cable_m`. The scene ends at zero.
-  void Learn(int frames, int postures = 0, double largest_cable_m = 0.0);
+  /// others, with each actuator commanded by 0 to `largest_command`, of a cable m, of a chamber Pa.
+  /// The scene ends at zero.
+  void Learn(int frames, int postures = 0, double largest_command = 0.0);
 
   /// The camera is opened again, as for another recording: contacts are unknown.
   void Open();

@@ -49,6 +49,17 @@ scenario::Scenario BallScenario() {
   return scenario;
 }
 
+scenario::Scenario FingerBallScenario() {
+  scenario::Scenario scenario = scenario::ReadScenario(
+      PALPATE_SOURCE_DIR "/config/scenarios/pneumatic_finger.yaml", app::LoadYaml);
+  scenario.tools = {Ball("ball_5", 0.005, {0.15, 0.30, 0.80}),
+                    Ball("ball_6", 0.006, {0.15, 0.65, 0.30}),
+                    Ball("ball_7", 0.007, {0.80, 0.70, 0.20})};
+  scenario.recordings.resize(1);
+  scenario.recordings[0].tool_paths.clear();
+  return scenario;
+}
+
 std::vector<scenario::FurtherCamera> OppositeCamera() {
   return scenario::ReadScenario(PALPATE_SOURCE_DIR "/config/scenarios/two_cameras.yaml",
                                 app::LoadYaml)
@@ -66,6 +77,7 @@ SensingScene::SensingScene(const robot::RobotDescription& robot, const scenario:
                            std::uint64_t seed)
     : scenario_{scenario},
       effects_{scenario::DrawEffects(scenario, scenario::NamesOf(robot), seed)},
+      actuators_{robot::ActuatorsOf(robot::BuildRobotBody(robot))},
       robot_{robot, scenario, effects_, seed},
       triangles_{robot_.boundary().DrawnTriangles()},
       cameras_{virtual_camera::MakeCameras(scenario, SkinOf(robot_), effects_, seed)},
@@ -121,11 +133,14 @@ Eigen::Matrix3Xd SensingScene::NodesInCamera_m(std::size_t camera) const {
 
 std::vector<robot::ActuatorCommand> SensingScene::Cables() const {
   std::vector<robot::ActuatorCommand> commands;
-  for (const virtual_robot::CableReading& cable : state_.cables) {
-    const bool driven = std::isfinite(cable.displacement_m);
-    commands.push_back({.kind = driven ? robot::ActuatorCommand::Kind::kDisplacement
-                                       : robot::ActuatorCommand::Kind::kNone,
-                        .value = driven ? cable.displacement_m : 0.0});
+  for (std::size_t a = 0; a < state_.cables.size(); ++a) {
+    const virtual_robot::CableReading& reading = state_.cables[a];
+    using Kind = robot::ActuatorCommand::Kind;
+    robot::ActuatorCommand& command = commands.emplace_back();
+    if (!std::isfinite(reading.displacement_m)) continue;
+    command = actuators_[a].IsChamber()
+                  ? robot::ActuatorCommand{Kind::kTension, actuators_[a].Force_N(reading.tension_N)}
+                  : robot::ActuatorCommand{Kind::kDisplacement, reading.displacement_m};
   }
   return commands;
 }

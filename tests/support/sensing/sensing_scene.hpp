@@ -27,6 +27,9 @@ namespace palpate::test_support {
 /// which moves as the converged one does; balls of 8, 10 and 12 mm radius and friction 0.3 (ball_8,
 /// ball_10, ball_12), each of its own colour, and a hand (hand).
 scenario::Scenario BallScenario();
+/// The same of config/scenarios/pneumatic_finger.yaml, with balls of 5, 6 and 7 mm. The body is the
+/// robot file's.
+scenario::Scenario FingerBallScenario();
 /// A second camera, opposite the first: that of config/scenarios/two_cameras.yaml.
 std::vector<scenario::FurtherCamera> OppositeCamera();
 /// BallScenario with the converged body itself: the robot file's mesh cut in eight, its element and
@@ -87,7 +90,7 @@ class SensingScene {
   const virtual_robot::VirtualRobot& robot() const { return robot_; }
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] of the true surface
   Eigen::Matrix3Xd NodesInCamera_m(std::size_t camera = 0) const;   ///< [3 x nodes] camera frame
-  /// The cable inputs of the estimator: displacements.
+  /// The inputs of the estimator: displacements of cables, pressures of chambers.
   std::vector<robot::ActuatorCommand> Cables() const;
 
  private:
@@ -95,6 +98,7 @@ class SensingScene {
 
   scenario::Scenario scenario_;
   std::vector<scenario::ActiveEffect> effects_;
+  std::vector<robot::ActuatorTraits> actuators_;
   virtual_robot::VirtualRobot robot_;
   Eigen::Matrix3Xi triangles_;
   std::vector<std::unique_ptr<virtual_camera::VirtualCamera>> cameras_;

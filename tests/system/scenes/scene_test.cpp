@@ -59,7 +59,7 @@ class Scene : public testing::Test {
 SensingScene* Scene::scene_ = nullptr;
 
 TEST_F(Scene, VisibleContactsAreSeenAndPushAsHardAsWanted) {
-  ContactGenerator generator(*scene_, {.largest_cable_m = 0.003}, 5);
+  ContactGenerator generator(*scene_, {.largest_command = 0.003}, 5);
   for (int k = 0; k < 5; ++k) {
     ASSERT_TRUE(generator.Next());
     ASSERT_THAT(scene_->state().forces, SizeIs(1));
@@ -148,7 +148,7 @@ TEST_F(Scene, IdealContactsAreWhereTheToolsTouchButForTheErrorGiven) {
 }
 
 TEST_F(Scene, ThePathOfAPushBeginsUntouchedAndEndsInTheState) {
-  ContactGenerator generator(*scene_, {.largest_cable_m = 0.003}, 12);
+  ContactGenerator generator(*scene_, {.largest_command = 0.003}, 12);
   ASSERT_TRUE(generator.Next());
   const std::vector<SceneState>& path = generator.path();
   EXPECT_THAT(path.front().forces, testing::IsEmpty());

@@ -64,7 +64,7 @@ TEST(StaticScene, APushOnTheSideOfALegIsNoneOnItsTop) {
   SensingChain chain(FourLegRobot(), scene, {.eyes = ChainSettings::Eyes::kPerception}, kSideSeed);
   chain.Learn(40, 4, kLargestCable_m);
   ASSERT_TRUE(scene.Start(scene.Nothing()).ok());
-  ContactGenerator generator(scene, {.where = Where::kVisible, .largest_cable_m = kLargestCable_m},
+  ContactGenerator generator(scene, {.where = Where::kVisible, .largest_command = kLargestCable_m},
                              kSideSeed);
   ASSERT_TRUE(generator.Next());
   scene.Show(generator.path().back());

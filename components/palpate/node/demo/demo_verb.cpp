@@ -47,7 +47,9 @@ int Demo(const DemoOptions& options) {
     of_messages.assign(of_processes, of_folder.remap.end());
     of_folder.remap.erase(of_processes, of_folder.remap.end());
   }
-  const DataFolder data(system.data, of_messages);
+  const DataFolder data(
+      system.data, of_messages,
+      system.data.empty() ? std::filesystem::path() : FindRobotFile(system.robot));
   end_on_signal.reset();
   of_folder.data = data.path();
   return data.Run([&](const std::filesystem::path&) { return SystemDemo(of_folder); });
@@ -61,14 +63,15 @@ app::Verb DemoVerb() {
             arguments.Option("--out FOLDER", &system.out,
                              "Folder of the results; without it demo in the build folder, or "
                              "palpate_demo here where palpate is installed");
-            arguments.Option("--seconds", &system.seconds, 1, 86400,
-                             "Duration, s; without it 30 s, or all of --data");
+            arguments.Option(
+                "--seconds", &system.seconds, 1, 86400,
+                "Duration, s; without it 30 s of the virtual robot's time, or all of --data");
             arguments.Flag("--no-view", &system.no_view, "Run without the live page");
             DeclareRobotOption(arguments, &system.robot,
                                "the robot to simulate, or the one of --data; without it four_leg");
             arguments.Option("--scenario", &system.scenario,
-                             "Scenario of the virtual robot; without it "
-                             "config/scenarios/sensing.yaml");
+                             "Scenario of the virtual robot; without it touches by the robot's "
+                             "size and stiffness, of four_leg config/scenarios/sensing.yaml");
             arguments.Option(
                 "--data FOLDER", &system.data,
                 "Experiment folder, or MCAP or .db3 file or folder of them, with depth "

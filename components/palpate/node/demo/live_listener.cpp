@@ -33,10 +33,14 @@ LiveListener::LiveListener(int domain_id, Truth truth, const std::vector<std::st
   if (!with_truth_) return;
   bench_.emplace(BenchReaders{participant_.CreateReader(dds::kTrueForcesTopic),
                               participant_.CreateReader(dds::kFrameInfoTopic),
-                              participant_.CreateReader(dds::kPerceptionReportTopic)});
+                              participant_.CreateReader(dds::kPerceptionReportTopic),
+                              participant_.CreateReader(dds::kBenchStateTopic)});
   loop_.Attach(bench_->truth, [this] { TakeTruth(); });
   loop_.Attach(bench_->frames, [this] { TakeFrameInfos(); });
   loop_.Attach(bench_->perceived, [this] { TakePerceived(); });
+  loop_.Attach(bench_->state, [this] {
+    for (const auto& message : bench_->state.Take()) bench_time_ = {message.recording, message.t_s};
+  });
 }
 
 bool LiveListener::Listen(const std::function<bool()>& done, std::chrono::duration<double> limit,

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -33,6 +34,12 @@ class LiveListener {
 
   /// Whether a status of the component has arrived.
   bool Heard(const std::string& component) const { return reports_.contains(component); }
+  /// Where the virtual robot is in its scenario. It falls behind the clock on a slow computer.
+  struct BenchTime {
+    std::uint32_t recording = 0;
+    double t_s = 0.0;
+  };
+  const BenchTime& bench_time() const { return bench_time_; }
   /// The status of components that are not ok; lines of text, each with its line end.
   std::string Troubles() const;
 
@@ -46,6 +53,7 @@ class LiveListener {
     dds::Reader<idl::palpate_msgs::ForceArray> truth;
     dds::Reader<idl::palpate_msgs::FrameInfo> frames;
     dds::Reader<idl::palpate_msgs::PerceptionReport> perceived;
+    dds::Reader<idl::palpate_msgs::BenchState> state;
   };
 
   void TakeForces();
@@ -57,6 +65,7 @@ class LiveListener {
   void PassEstimated(const idl::palpate_msgs::ForceArray& message, double heard_s);
 
   bool with_truth_;
+  BenchTime bench_time_;
   dds::Participant participant_;
   dds::WaitSet loop_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;

@@ -22,11 +22,14 @@
 #include "components/palpate/node/demo/live_table.hpp"
 #include "components/palpate/node/demo/replayed_images.hpp"
 #include "components/palpate/node/demo/system_processes.hpp"
+#include "components/palpate/touches/touch_plan.hpp"
+#include "components/palpate/touches/touch_scenario.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario.hpp"
@@ -41,6 +44,7 @@ constexpr duration<double> kSystemStartLimit = std::chrono::seconds(60);
 constexpr duration<double> kFirstForceLimit = std::chrono::seconds(60);
 constexpr duration<double> kLongestReplay = std::chrono::hours(24);
 constexpr int kUsualSeconds = 30;
+constexpr int kSlowestBench = 10;  ///< the demonstration ends after so many times that
 // Receive buffer that a depth camera at 30 Hz needs.
 constexpr int kPictureBuffer_bytes = 2'097'152;
 void AdviseOnKernel() {
@@ -53,10 +57,23 @@ void AdviseOnKernel() {
       *granted / 1024, kPictureBuffer_bytes);
 }
 
-std::filesystem::path ScenarioFile(const SystemDemoOptions& options) {
+// The scenario that is given, sensing.yaml of the robot that it is made for, or touches derived
+// from the robot, written to `folder`.
+std::filesystem::path ScenarioFile(const SystemDemoOptions& options,
+                                   const std::filesystem::path& robot,
+                                   const std::filesystem::path& folder) {
   if (!options.scenario.empty()) return std::filesystem::absolute(options.scenario);
-  const std::filesystem::path file = FindProjectFile("config/scenarios/sensing.yaml");
-  if (file.empty()) throw InputError("config/scenarios/sensing.yaml is not there; give --scenario");
+  if (std::filesystem::equivalent(robot, FindRobotFile("four_leg"))) {
+    const std::filesystem::path file = FindProjectFile("config/scenarios/sensing.yaml");
+    if (file.empty()) {
+      throw InputError("config/scenarios/sensing.yaml is not there; give --scenario");
+    }
+    return file;
+  }
+  const std::unique_ptr<robot::RobotModel> model = LoadRobot(robot);
+  const std::filesystem::path file = folder / "scenario.yaml";
+  WriteFile(file, TouchScenario(model->body(), PlanTouches(model.get())));
+  fmt::print("Touches by the size and stiffness of {}: {}\n", model->body().name, file.string());
   return file;
 }
 
@@ -69,6 +86,7 @@ class DemoRun {
   SystemProcesses& processes() { return processes_; }
   const LiveComparison& comparison() const { return listener_.comparison(); }
   const StageTimes& stages() const { return listener_.stages(); }
+  const LiveListener::BenchTime& bench_time() const { return listener_.bench_time(); }
 
   // Waits for the status of all of these. Throws RunError where it does not come; false where the
   // user stops the demonstration.
@@ -127,10 +145,21 @@ void TellPage(DemoRun* run) {
   std::fflush(stdout);
 }
 
+// How far into its scenario a virtual robot is, s; without a time the duration of all of it.
+double ScenarioTime_s(const scenario::Scenario& scenario,
+                      const std::optional<LiveListener::BenchTime>& time) {
+  double sum_s = 0.0;
+  for (std::size_t r = 0; r < scenario.recordings.size(); ++r) {
+    sum_s += scenario.rest_between_s;
+    if (time && time->recording == r) return sum_s + time->t_s;
+    sum_s += scenario.recordings[r].duration_s;
+  }
+  return sum_s;
+}
+
 void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot,
-               const std::string& camera_address, const std::filesystem::path& recording,
-               DemoRun* run) {
-  const std::filesystem::path scenario_file = ScenarioFile(options);
+               const DemoPlace& place, const std::filesystem::path& recording, DemoRun* run) {
+  const std::filesystem::path scenario_file = ScenarioFile(options, robot, place.folder);
   const auto scenario = scenario::ReadScenario(scenario_file, app::LoadYaml);
   if (!scenario.camera)
     throw InputError(scenario_file.string() + ": the scenario has no camera; add the key 'camera'");
@@ -143,9 +172,10 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
         {.name = "demo",
          .variables = {{"robot", robot.string()},
                        {"scenario", scenario_file.string()},
-                       {"camera_address", camera_address},
+                       {"camera_address", place.CameraAddress()},
                        {"camera_pose", geometry::FormatPose(scenario.camera->T_robot_camera)}},
          .calibration = options.calibration,
+         .settings = {"virtual_robot.rate_hz=" + FormatNumber(scenario.camera->rate_hz)},
          .last = "virtual_robot",
          .page = !options.no_view,
          .recording = recording});
@@ -159,7 +189,13 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
   const DemoStep step(fmt::format("[2/3] {} s of {}: forces against truth", seconds,
                                   scenario_file.filename().string()));
   run->ShowTable();
-  run->Listen([] { return false; }, duration<double>(seconds));
+  // A virtual robot of a fine mesh is slower than the clock: its own time counts.
+  const bool by_bench = options.seconds == 0 && ScenarioTime_s(scenario, {}) >= seconds;
+  const auto over = [&] {
+    constexpr double kLastStates_s = 0.2;
+    return by_bench && ScenarioTime_s(scenario, run->bench_time()) >= seconds - kLastStates_s;
+  };
+  run->Listen(over, duration<double>(by_bench ? kSlowestBench * seconds : seconds));
   run->HideTable();
 }
 
@@ -259,7 +295,7 @@ int SystemDemo(const SystemDemoOptions& options) {
               options.remap);
   run.SetLogFolder(place.folder);
   if (with_truth) {
-    PlayBench(options, robot, place.CameraAddress(), recording, &run);
+    PlayBench(options, robot, place, recording, &run);
   } else {
     PlayRecordings(options, robot, recording, &run);
   }

@@ -12,12 +12,12 @@ namespace palpate::command {
 struct SystemDemoOptions {
   std::filesystem::path out;          ///< empty: demo/ beside the folder of the program
   std::filesystem::path robot;        ///< file or name; empty: four_leg
-  std::filesystem::path scenario;     ///< empty: config/scenarios/sensing.yaml
+  std::filesystem::path scenario;     ///< empty: of four_leg sensing.yaml, else TouchScenario
   std::filesystem::path data;         ///< an experiment with images instead of the virtual robot
   std::vector<std::string> remap;     ///< FROM:=TO, or __ns:=/NAMESPACE, of the processes
   std::filesystem::path calibration;  ///< empty: none
   bool no_view = false;               ///< without the live page
-  int seconds = 0;                    ///< duration; 0: 30 s of the virtual robot, all of recordings
+  int seconds = 0;  ///< duration; 0: 30 s of the virtual robot's time, all of recordings
 };
 
 /// `palpate demo`: the whole system on one machine. Virtual robot and camera, capture, perception

@@ -5,7 +5,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "libs/core/utc_text.hpp"
 
@@ -87,9 +89,22 @@ std::string CameraText(const monitor::SystemSnapshot& snapshot) {
 
 std::string CablesText(const monitor::SystemSnapshot& snapshot) {
   if (!snapshot.cables) return {};
-  std::string text = "CABLES       " + FlowText(snapshot.cables->flow);
-  for (const monitor::CableValue& cable : snapshot.cables->cables) {
+  const std::vector<monitor::CableValue>& all = snapshot.cables->cables;
+  const auto chambers =
+      std::count_if(all.begin(), all.end(), [](const auto& value) { return value.is_chamber; });
+  const bool mixed = chambers > 0 && chambers < std::ssize(all);
+  std::string text = mixed ? "ACTUATORS    " : chambers > 0 ? "CHAMBERS     " : "CABLES       ";
+  text += FlowText(snapshot.cables->flow);
+  for (const monitor::CableValue& cable : all) {
     text += "; " + cable.name;
+    if (cable.is_chamber) {
+      if (std::isfinite(cable.displacement_m)) {
+        text += fmt::format(" {:+.2f} cm3", 1e6 * cable.displacement_m);
+      }
+      if (std::isfinite(cable.tension_N))
+        text += fmt::format(" {:.2f} kPa", 1e-3 * cable.tension_N);
+      continue;
+    }
     if (std::isfinite(cable.displacement_m)) {
       text += fmt::format(" {:.1f} mm", 1e3 * cable.displacement_m);
     }

@@ -3,10 +3,18 @@
 
 #include "components/palpate/node/watch/system_listener.hpp"
 
+#include <algorithm>
+#include <set>
+
+#include "components/palpate/find_robot.hpp"
 #include "components/palpate/node/live/live_messages.hpp"
+#include "libs/app/yaml.hpp"
 #include "libs/core/clock.hpp"
+#include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
+#include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
+#include "libs/robot/robot_description.hpp"
 
 namespace palpate::command {
 
@@ -16,9 +24,18 @@ constexpr auto kListenPeriod = std::chrono::milliseconds(50);
 
 double MonotonicNow_s() { return NsToSeconds(MonotonicNow_ns()); }
 
+std::set<std::string> ChambersOf(const std::filesystem::path& robot) {
+  std::set<std::string> names;
+  for (const auto& chamber : robot::ReadRobotFile(robot, app::LoadYaml).chambers) {
+    names.insert(chamber.name);
+  }
+  return names;
+}
+
 }  // namespace
 
-SystemListener::SystemListener(int domain_id, const std::vector<std::string>& remap)
+SystemListener::SystemListener(int domain_id, const std::vector<std::string>& remap,
+                               const std::filesystem::path& robot)
     : participant_(JoinDomain("palpate_watch", domain_id, remap)),
       loop_(participant_),
       builder_(domain_id),
@@ -42,7 +59,26 @@ SystemListener::SystemListener(int domain_id, const std::vector<std::string>& re
   loop_.Attach(calibrations_, [this] {
     for (const auto& message : calibrations_.Take()) builder_.Add(message);
   });
+  if (!robot.empty()) {
+    builder_.SetChambers(ChambersOf(FindRobotFile(robot)));
+  } else {
+    mesh_at_rest_.emplace(participant_.CreateReader(dds::kMeshTopic));
+    loop_.Attach(*mesh_at_rest_, [this] { TakeRobotOfMesh(); });
+  }
   loop_.Every(kListenPeriod, [] {});
+}
+
+void SystemListener::TakeRobotOfMesh() {
+  for (const auto& message : mesh_at_rest_->Take()) {
+    const std::string name(dds::Text(message.robot));
+    const std::vector<std::string> known = KnownRobots();
+    if (std::find(known.begin(), known.end(), name) == known.end()) continue;
+    try {
+      builder_.SetChambers(ChambersOf(FindRobotFile(name)));
+    } catch (const InputError&) {
+      // A file that cannot be read names no chambers.
+    }
+  }
 }
 
 template <typename T>

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,12 @@ namespace palpate::command {
 /// and clouds. Publishes nothing.
 class SystemListener {
  public:
-  /// `remap`: other names of its topics, "__ns:=/left". Throws InputError for a rule that is none,
-  /// RunError where DDS refuses.
-  explicit SystemListener(int domain_id, const std::vector<std::string>& remap = {});
+  /// `remap`: other names of its topics, "__ns:=/left". `robot`: the robot file that says which
+  /// joints are chambers; empty: that of config/robots with the name of the published mesh, if
+  /// there is one. Throws InputError for a rule that is none and for a robot file that cannot be
+  /// read, RunError where DDS refuses.
+  explicit SystemListener(int domain_id, const std::vector<std::string>& remap = {},
+                          const std::filesystem::path& robot = {});
 
   /// Takes messages until `done()` holds, which is asked at least every 50 ms, or `limit` passes.
   void Listen(const std::function<bool()>& done, std::chrono::duration<double> limit);
@@ -33,10 +38,12 @@ class SystemListener {
  private:
   template <typename T>
   void Attach(dds::Reader<T>& reader);
+  void TakeRobotOfMesh();
 
   dds::Participant participant_;
   dds::WaitSet loop_;
   monitor::SnapshotBuilder builder_;
+  std::optional<dds::Reader<idl::palpate_msgs::Mesh>> mesh_at_rest_;  ///< without a robot file
   dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
   dds::Reader<idl::diagnostic_msgs::DiagnosticArray> diagnostics_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;

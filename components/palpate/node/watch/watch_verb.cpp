@@ -14,6 +14,7 @@
 #include "components/palpate/node/watch/snapshot_text.hpp"
 #include "components/palpate/node/watch/system_listener.hpp"
 #include "libs/app/node_options.hpp"
+#include "libs/app/project_files.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/core/error.hpp"
@@ -90,7 +91,7 @@ int Watch(const WatchOptions& options) {
   if (options.timeout_s <= 0.0) {
     throw InputError("--timeout must be above 0 s, not " + FormatNumber(options.timeout_s));
   }
-  SystemListener listener(options.domain_id, options.remap);
+  SystemListener listener(options.domain_id, options.remap, options.robot);
   return options.once ? WatchOnce(options, &listener) : WatchOn(options, &listener);
 }
 
@@ -102,6 +103,9 @@ app::Verb WatchVerb() {
             app::DeclareSecurity(arguments, &options->keystore);
             arguments.Repeated("--remap FROM:=TO", &options->remap,
                                "Another name for a topic, or __ns:=/left for all of a namespace");
+            DeclareRobotOption(arguments, &options->robot,
+                               "the robot whose file says which joints are chambers; without it "
+                               "the one in config/robots with the name of the published mesh");
             arguments.Flag("--once", &options->once,
                            "Print one state when all processes have reported, and exit; exit code "
                            "1 where none does");

@@ -15,6 +15,7 @@ struct WatchOptions {
   int domain_id = 0;
   std::filesystem::path keystore;  ///< of a secured domain; empty: as the environment has it
   std::vector<std::string> remap;
+  std::filesystem::path robot;  ///< says which joints are chambers; empty: as SystemListener
   bool once = false;
   bool json = false;
   double rate_hz = 2.0;    ///< 0.1 to 20

@@ -28,6 +28,7 @@ using testing::HasSubstr;
 
 constexpr char kImage[] = "sensor_msgs/msg/Image";
 constexpr char kInfo[] = "sensor_msgs/msg/CameraInfo";
+const std::filesystem::path kFinger = PALPATE_SOURCE_DIR "/config/robots/pneumatic_finger.yaml";
 
 /// A recording and the experiment that it becomes.
 class MakeExperimentTest : public testing::Test {
@@ -44,20 +45,22 @@ class MakeExperimentTest : public testing::Test {
     messages_.Add(camera + "/camera_info", kInfo, kStart_ns,
                   CameraInfoMessage("camera_depth_optical", 2, 2));
   }
-  void AddJoints(int index, const std::string& cable, double position_m) {
+  void AddJoints(int index, const std::string& cable, double position_m,
+                 const std::vector<double>& effort = {}) {
     const std::int64_t t_ns = kStart_ns + index * kStep_ns;
     Cdr cdr;
     cdr.Stamp(t_ns, "").Put(std::uint32_t{1}).Text(cable);
-    cdr.List<double>({position_m}).List<double>({}).List<double>({});
+    cdr.List<double>({position_m}).List<double>({}).List<double>(effort);
     messages_.Add("/robot/joint_states", "sensor_msgs/msg/JointState", t_ns, cdr);
   }
   void AddPhase(std::int64_t t_ns, const std::string& text) {
     messages_.Add("/experiment/phase", "std_msgs/msg/String", t_ns, Cdr().Text(text));
   }
 
-  experiment::Experiment Make(const std::vector<std::string>& remap = {}) {
+  experiment::Experiment Make(const std::vector<std::string>& remap = {},
+                              const std::filesystem::path& robot = {}) {
     messages_.WriteMcap(folder_ / "run.mcap");
-    notes_ = offline::MakeExperiment(folder_ / "run.mcap", remap, out_, app::LoadYaml);
+    notes_ = offline::MakeExperiment(folder_ / "run.mcap", remap, robot, out_, app::LoadYaml);
     return experiment::ReadExperiment(out_, app::LoadYaml);
   }
   std::string Refusal(const std::vector<std::string>& remap = {}) {
@@ -101,7 +104,7 @@ TEST_F(MakeExperimentTest, ASqliteRecordingGivesTheSameAsAnMcapFile) {
   AddDepth(1);
   AddJoints(0, "north", 0.01);
   messages_.WriteSqlite(folder_ / "run.db3");
-  offline::MakeExperiment(folder_ / "run.db3", {}, folder_ / "of_db3", app::LoadYaml);
+  offline::MakeExperiment(folder_ / "run.db3", {}, {}, folder_ / "of_db3", app::LoadYaml);
   Make();
   for (const char* name : {"actuation.csv", "camera.yaml", "depth/0.png", "depth/100000000.png"}) {
     EXPECT_EQ(ReadFile(out_ / "recordings/run" / name),
@@ -119,7 +122,7 @@ TEST_F(MakeExperimentTest, FilesOfOneFolderAreOneRecording) {
   messages_.entries.clear();
   AddDepth(1);
   messages_.WriteMcap(folder_ / "bag/bag_1.mcap");
-  offline::MakeExperiment(folder_ / "bag", {}, out_, app::LoadYaml);
+  offline::MakeExperiment(folder_ / "bag", {}, {}, out_, app::LoadYaml);
   const auto experiment = experiment::ReadExperiment(out_, app::LoadYaml);
   EXPECT_EQ(experiment.recordings.front().depth_images.size(), 2u);
 }
@@ -296,6 +299,52 @@ TEST_F(MakeExperimentTest, JointsOfAnArmAreRefusedWithTheRemedy) {
   EXPECT_FALSE(Make({"/robot/joint_states:=/unused"}).recordings.front().actuation);
 }
 
+TEST_F(MakeExperimentTest, JointsAreChambersWhereTheRobotFileSaysSo) {
+  AddDepthInfo();
+  AddDepth(0);
+  AddJoints(0, "bend", 2e-6, {12e3});
+  const auto experiment = Make({}, kFinger);
+  const auto& columns = experiment.recordings.front().actuation->columns;
+  ASSERT_EQ(columns.size(), 2U);
+  EXPECT_TRUE(columns[0].of_chamber);
+  EXPECT_EQ(columns[0].samples, (std::vector<std::optional<double>>{2e-6}));
+  EXPECT_EQ(columns[1].samples, (std::vector<std::optional<double>>{12e3}));
+  EXPECT_THAT(ReadFile(experiment.recordings.front().folder / "actuation.csv"),
+              HasSubstr("bend.volume_m3,bend.pressure_Pa"));
+  EXPECT_THAT(Notes(), testing::Not(HasSubstr("taken for cables")));
+}
+
+TEST_F(MakeExperimentTest, TheAttachedRobotSaysWhichJointsAreChambers) {
+  AddDepthInfo();
+  AddDepth(0);
+  AddJoints(0, "bend", 2e-6, {12e3});
+  recording::Attachment robot;
+  robot.name = "finger.yaml";
+  robot.data = ReadFile(kFinger);
+  messages_.attachments = {robot};
+  EXPECT_TRUE(Make().recordings.front().actuation->columns.front().of_chamber);
+}
+
+TEST_F(MakeExperimentTest, WithoutARobotJointsAreCablesAndTheNotesSaySo) {
+  AddDepthInfo();
+  AddDepth(0);
+  AddJoints(0, "bend", 2e-6);
+  EXPECT_FALSE(Make().recordings.front().actuation->columns.front().of_chamber);
+  EXPECT_THAT(Notes(), HasSubstr("joint states are taken for cables: no robot file is known"));
+}
+
+TEST_F(MakeExperimentTest, WhatNoChamberCanHaveIsRefusedAndACableThatPushesNamesTheRemedy) {
+  AddDepthInfo();
+  AddDepth(0);
+  AddJoints(0, "bend", 0.0, {-2e4});
+  EXPECT_THAT(Refusal(), testing::AllOf(HasSubstr("a cable cannot push"), HasSubstr("--robot")));
+  std::filesystem::remove(folder_ / "run.mcap");
+  EXPECT_THAT(MessageOf([&] { Make({}, "no_such_robot.yaml"); }), HasSubstr("no_such_robot"));
+  std::filesystem::remove(folder_ / "run.mcap");
+  AddJoints(1, "bend", 0.0, {-2e5});
+  EXPECT_THAT(MessageOf([&] { Make({}, kFinger); }), HasSubstr("below a vacuum"));
+}
+
 TEST_F(MakeExperimentTest, RulesThatFitNothingAreRefused) {
   AddDepth(0);
   EXPECT_THAT(Refusal({"/camera/depth:=/x"}), HasSubstr("the recording has no such topic"));
@@ -360,8 +409,9 @@ TEST(MakeExperimentOfRos2, ARecordingWithoutIntrinsicsIsRefusedWithTheReason) {
   const auto file = test_support::MeasuredDataFolder() / "ros2/ros2_humble_image_wrench.mcap";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << " (set PALPATE_DATA_DIR)";
   const TestFolder folder;
-  EXPECT_THAT(MessageOf([&] { offline::MakeExperiment(file, {}, folder / "out", app::LoadYaml); }),
-              HasSubstr("/camera/depth/image_raw: no intrinsics"));
+  EXPECT_THAT(
+      MessageOf([&] { offline::MakeExperiment(file, {}, {}, folder / "out", app::LoadYaml); }),
+      HasSubstr("/camera/depth/image_raw: no intrinsics"));
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ class RecordedFormats : public testing::Test {
 
   experiment::Experiment MakeOf(const std::filesystem::path& file) {
     notes_.clear();
-    for (const std::string& note : offline::MakeExperiment(file, {}, out_, app::LoadYaml)) {
+    for (const std::string& note : offline::MakeExperiment(file, {}, {}, out_, app::LoadYaml)) {
       notes_ += note + "\n";
     }
     return experiment::ReadExperiment(out_, app::LoadYaml);

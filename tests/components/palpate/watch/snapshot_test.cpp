@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 namespace palpate::command {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::json;
@@ -260,6 +262,36 @@ TEST(Snapshot, EveryFurtherTopicHasItsLine) {
   EXPECT_TRUE(json.at("cables").at("cables").at(0).at("tension_N").is_null());
   EXPECT_EQ(json.at("calibration").at("frames_wanted"), 6);
   EXPECT_EQ(json.at("perception").at("robot_points"), 4012);
+}
+
+TEST(Snapshot, ChambersHaveVolumeAndPressureInTheirUnits) {
+  monitor::SnapshotBuilder builder(7);
+  builder.SetChambers({"bend"});
+  builder.Add(*Report("virtual_robot", "ok"), 1.0);
+  dds::Message<idl::sensor_msgs::JointState> joints;
+  dds::Resize(joints->name, 1);
+  dds::SetText(joints->name._buffer[0], "bend");
+  const double volume_m3 = 1.97e-6, pressure_Pa = 20e3;
+  dds::SetNumbers(joints->position, &volume_m3, 1);
+  dds::SetNumbers(joints->effort, &pressure_Pa, 1);
+  builder.Add(*joints, 1.0);
+  EXPECT_THAT(SnapshotText(builder.At(1.0, 0)),
+              AllOf(HasSubstr("CHAMBERS     "), HasSubstr("; bend +1.97 cm3 20.00 kPa\n"),
+                    Not(HasSubstr("CABLES"))));
+  const Json state = Json::parse(monitor::SnapshotJson(builder.At(1.0, 0))).at("cables");
+  EXPECT_TRUE(state.at("cables").empty());
+  EXPECT_EQ(state.at("chambers").at(0).at("volume_m3"), volume_m3);
+  EXPECT_EQ(state.at("chambers").at(0).at("pressure_Pa"), pressure_Pa);
+  // Beside a cable.
+  dds::Message<idl::sensor_msgs::JointState> both;
+  dds::Resize(both->name, 2);
+  dds::SetText(both->name._buffer[0], "north");
+  dds::SetText(both->name._buffer[1], "bend");
+  const std::array position{0.005, volume_m3};
+  dds::SetNumbers(both->position, position.data(), 2);
+  builder.Add(*both, 2.0);
+  EXPECT_THAT(SnapshotText(builder.At(2.0, 0)),
+              AllOf(HasSubstr("ACTUATORS    "), HasSubstr("; north 5.0 mm; bend +1.97 cm3")));
 }
 
 TEST(Snapshot, TextsThatAreNoUtf8StillGiveJson) {

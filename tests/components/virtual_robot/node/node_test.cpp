@@ -48,7 +48,7 @@ BenchSetup Setup(const scenario::Scenario& scenario) {
   return {std::make_unique<VirtualRobot>(robot, scenario, std::vector<scenario::ActiveEffect>{}, 1),
           robot.name,
           names.cables,
-          scenario::Schedule(scenario, names.cables),
+          scenario::Schedule(scenario, names.Actuators()),
           "hash",
           1};
 }
