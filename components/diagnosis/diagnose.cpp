@@ -20,7 +20,7 @@
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/joined_diagnosis.hpp"
 #include "components/diagnosis/prepare/data_checks.hpp"
-#include "components/diagnosis/prepare/exchanged_cables.hpp"
+#include "components/diagnosis/prepare/nearest_robot.hpp"
 #include "components/diagnosis/prepare/pose_registration.hpp"
 #include "components/diagnosis/prepare/surface_observation.hpp"
 #include "components/diagnosis/vocabulary/verdict_words.hpp"
@@ -58,10 +58,10 @@ bool HasDepthFrames(const ObservedExperiment& observed) {
                      [](const Sample& sample) { return !sample.depth_frames.empty(); });
 }
 
-bool IsAmong(const HypothesisSet& hypotheses, const std::optional<CauseName>& name) {
+bool IsAmong(const HypothesisSet& hypotheses, const std::optional<LikelyFault>& fault) {
   const FaultModelList causes = hypotheses.All();
-  return name && std::any_of(causes.begin(), causes.end(),
-                             [&](const FaultModel* cause) { return cause->name() == *name; });
+  return fault && std::any_of(causes.begin(), causes.end(),
+                              [&](const FaultModel* cause) { return fault->Is(*cause); });
 }
 
 experiment::Experiment WithoutDepthFrames(experiment::Experiment experiment) {
@@ -163,8 +163,8 @@ Status DiagnosisRun::RegisterAndSwap() {
   Status status = RegisterUnknownPoses(body_, threads, &observed_);
   if (!status.ok()) return status;
   SurfaceSource* source = HasDepthFrames(observed_) ? settings_.surface_source : nullptr;
-  report_(0, steps(), "testing exchanged cables");
-  nearest_ = FindExchangedCables(body_, observed_, threads, source);
+  report_(0, steps(), "testing exchanged cables and tubes, and blocked valves");
+  nearest_ = FindNearestRobot(body_, observed_, threads, source);
   KeepToTheLimit();
   if (source == nullptr) return status;
   report_(0, steps(), "matching depth frames with the body");
@@ -216,7 +216,7 @@ void DiagnosisRun::Select() {
   selection_ = SelectFaults(
       observed_, *fitter_, as_built_, settings_.most_causes,
       [this](int done, int of, const std::string& what) { ReportSelection(done, of, what); },
-      rematch, IsAmong(*hypotheses_, nearest_->exchanged) ? nearest_->exchanged : std::nullopt);
+      rematch, IsAmong(*hypotheses_, nearest_->fault) ? nearest_->fault : std::nullopt);
   if (matcher_) as_built_ = fitter_->Resimulated(std::move(as_built_));
 }
 

@@ -177,6 +177,14 @@ FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,
 
 using FaultModelPtr = std::unique_ptr<const FaultModel>;
 
+/// A fault that may be there: of this name, and of those that have starts with this one.
+struct LikelyFault {
+  CauseName name;
+  std::optional<int> start = {};
+
+  bool Is(const FaultModel& fault) const { return fault.name() == name && fault.Start() == start; }
+};
+
 /// Faults together; their parameters follow each other in this order.
 using FaultModelList = std::vector<const FaultModel*>;
 

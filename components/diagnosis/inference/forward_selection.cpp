@@ -272,11 +272,17 @@ bool ForwardSelectionStep::IsSpecialCaseOf(std::size_t special, std::size_t k) c
   return fitter_.hypotheses().IsSpecialCase(candidates_[special].fault, candidates_[k].fault);
 }
 
-void ForwardSelectionStep::SimulateLikely(const CauseName& name) {
+void ForwardSelectionStep::SimulateLikely(const LikelyFault& likely) {
+  const HypothesisSet& hypotheses = fitter_.hypotheses();
   const auto tried = std::find_if(
       candidates_.begin(), candidates_.end(),
-      [&](const Candidate& one) { return fitter_.hypotheses().model(one.fault).name() == name; });
+      [&](const Candidate& one) { return hypotheses.model(one.fault).name() == likely.name; });
   if (tried == candidates_.end()) return;
+  for (int k = 0; k < hypotheses.size() && likely.start; ++k) {
+    if (!likely.Is(hypotheses.model(k))) continue;
+    tried->fault = k;
+    tried->starts = {k};
+  }
   tried_ = fitter_.WithFaults(With(before_.faults, tried->fault), before_);
   if (!tried_.status.ok()) return;
   tried->ln_screened = tried_.posterior.ln_evidence - before_.posterior.ln_evidence;

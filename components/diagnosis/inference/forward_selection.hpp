@@ -90,7 +90,7 @@ class ForwardSelectionStep {
   /// All must outlive it.
   /// `clear_evidence`: ln BF that a fault must have to be named.
   ForwardSelectionStep(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before,
-                       const std::optional<CauseName>& likely,
+                       const std::optional<LikelyFault>& likely,
                        double clear_evidence = kSelectionTuning.clear_evidence)
       : observed_(observed),
         fitter_(fitter),
@@ -108,8 +108,8 @@ class ForwardSelectionStep {
 
  private:
   bool IsSpecialCaseOf(std::size_t special, std::size_t k) const;
-  /// Simulates the fault of this name; the result replaces the evidence of the linear model.
-  void SimulateLikely(const CauseName& name);
+  /// Simulates that fault; the result replaces the evidence of the linear model.
+  void SimulateLikely(const LikelyFault& likely);
   /// Whether to simulate a further round: no simulated candidate is acceptable, or the next one
   /// promises more.
   bool AreOthersPromising() const;
@@ -140,7 +140,7 @@ class ForwardSelectionStep {
   const ObservedExperiment& observed_;
   const Fitter& fitter_;
   const Fit& before_;
-  const std::optional<CauseName>& likely_;
+  const std::optional<LikelyFault>& likely_;
   double clear_evidence_;
   Fit tried_;  ///< with the likely one; or with no faults
   std::vector<Candidate> candidates_;

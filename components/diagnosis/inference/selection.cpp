@@ -69,7 +69,7 @@ void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
 
 Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
                        const Fit& as_built, int most, const ReportStep& report,
-                       const Rematch& rematch, const std::optional<CauseName>& likely) {
+                       const Rematch& rematch, const std::optional<LikelyFault>& likely) {
   const auto rematched = [&](Fit fit) {
     if (!rematch || !fit.status.ok()) return fit;
     rematch(fit);

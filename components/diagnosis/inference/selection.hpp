@@ -49,6 +49,6 @@ using Rematch = std::function<void(const Fit&)>;
 Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
                        const Fit& as_built, int most, const ReportStep& report,
                        const Rematch& rematch = nullptr,
-                       const std::optional<CauseName>& likely = {});
+                       const std::optional<LikelyFault>& likely = {});
 
 }  // namespace palpate::diagnosis

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "components/diagnosis/prepare/nearest_robot.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 #include "libs/robot/robot_description.hpp"
@@ -114,6 +116,41 @@ TEST_F(ChamberFaults, AreWhatTheyAreDefinedAs) {
   const double area_of_other_m2 = observed_.timeline.actuators[1].area_m2;
   EXPECT_TRUE(
       (Thrust_N("swapped_tubes", 1.0).row(1) / area_of_other_m2).isApprox(first / area_m2, 1e-12));
+}
+
+/// A linear model about the nominal robot is too far from these to find them.
+TEST_F(ChamberFaults, AreFoundBeforeTheFitWhereTheyBendTheRobotFar) {
+  int tried = 0;
+  for (const FaultModelPtr& cause : causes_) {
+    const std::string& id = cause->name().id;
+    if (id != "blocked_valve" && id != "swapped_tubes") continue;
+    ModelHypothesis hypothesis = nominal_;
+    cause->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
+    const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
+    ASSERT_TRUE(truth.status.ok()) << cause->words();
+    ObservedExperiment seen = observed_;
+    for (std::size_t s = 0; s < seen.samples.size(); ++s) {
+      seen.samples[s].position_m = truth.samples[s].markers_m();
+    }
+    const std::optional<LikelyFault> fault = FindNearestRobot(body_, seen, 1, nullptr).fault;
+    ASSERT_TRUE(fault) << cause->words();
+    EXPECT_TRUE(fault->Is(*cause)) << cause->words() << " of start " << cause->Start().value_or(-1);
+    ++tried;
+  }
+  EXPECT_GE(tried, 6);
+}
+
+TEST_F(ChamberFaults, OfOtherKindsAreNotTakenForThose) {
+  for (const char* id : {"leak", "pressure_gain", "slow_valve"}) {
+    ModelHypothesis hypothesis = nominal_;
+    First(id).Apply(Eigen::VectorXd::Constant(1, 0.3), &hypothesis);
+    const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
+    ObservedExperiment seen = observed_;
+    for (std::size_t s = 0; s < seen.samples.size(); ++s) {
+      seen.samples[s].position_m = truth.samples[s].markers_m();
+    }
+    EXPECT_FALSE(FindNearestRobot(body_, seen, 1, nullptr).fault) << id;
+  }
 }
 
 /// A ramp of the rate r is followed later by tau, that is by r tau.

@@ -64,10 +64,22 @@ TEST_F(DiagnoseChambers, AcquitAHealthyArm) {
   EXPECT_EQ(verdict["verdict"], "no_fault") << verdict["reason"];
 }
 
+/// Its interval, of a few per cent, may miss the truth, as one in twenty does: blind sets count that.
 TEST_F(DiagnoseChambers, FindASlowValve) {
   Take("pneumatic_finger");
-  ExpectWithin(Named("{id: slow_valve, where: chamber:bend, tau_s: 0.3}", "slow_valve"), "tau_s",
-               0.3);
+  const nlohmann::json valve =
+      Named("{id: slow_valve, where: chamber:bend, tau_s: 0.3}", "slow_valve");
+  ASSERT_TRUE(valve.contains("parameters"));
+  EXPECT_NEAR(valve["parameters"]["tau_s"]["value"].get<double>(), 0.3, 0.1 * 0.3);
+}
+
+/// A linear model about the nominal robot does not reach it.
+TEST_F(DiagnoseChambers, FindABlockedValve) {
+  Take("pneumatic_finger");
+  const nlohmann::json valve =
+      Named("{id: blocked_valve, where: chamber:bend, from_recording: 3}", "blocked_valve");
+  ASSERT_TRUE(valve.contains("parameters"));
+  EXPECT_EQ(valve["parameters"]["from_recording"]["value"], 3);
 }
 
 /// At rest a leak and a sensor that reads too much are the same.

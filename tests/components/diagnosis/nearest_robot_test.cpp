@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/prepare/exchanged_cables.hpp"
+#include "components/diagnosis/prepare/nearest_robot.hpp"
 
 #include "components/diagnosis/faults/makers.hpp"
 #include "tests/components/diagnosis/hidden_faults.hpp"
@@ -30,7 +30,8 @@ class ExchangedCables : public HiddenFaults {
   }
 
   std::optional<CauseName> Found() const {
-    return FindExchangedCables(body_, observed_, 1, nullptr).exchanged;
+    const std::optional<LikelyFault> fault = FindNearestRobot(body_, observed_, 1, nullptr).fault;
+    return fault ? std::optional(fault->name) : std::nullopt;
   }
 
   std::vector<FaultModelPtr> exchanges_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/prepare/exchanged_cables.hpp"
+#include "components/diagnosis/prepare/nearest_robot.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -29,21 +29,41 @@ constexpr Eigen::Index kPoints = 500;
 /// Another robot is taken for it where the mean square of what points are off by is so much less.
 constexpr double kClearlyLess = 0.5;
 
-/// How much more of its way than all cables in the mean one is pulled; NaN: it is not driven then.
-double PulledApart(const Timeline& timeline, const Eigen::VectorXd& most, const Sample& sample,
-                   Eigen::Index cable) {
+/// How much more of its way than all actuators in the mean one is driven; NaN: it is not then.
+double DrivenApart(const Timeline& timeline, const Eigen::VectorXd& most, const Sample& sample,
+                   Eigen::Index actuator) {
   const double t_s = 0.5 * (sample.frame_t_s.front() + sample.frame_t_s.back());
   const Eigen::VectorXd share = timeline.CommandAt(t_s).cwiseQuotient(most);
-  return share[cable] - share.array().isNaN().select(0.0, share.array()).mean();
+  return share[actuator] - share.array().isNaN().select(0.0, share.array()).mean();
 }
 
 bool SeesTheRobot(const Sample& sample, bool in_frames) {
   return in_frames ? !sample.depth_frames.empty() : (sample.count.array() > 0).any();
 }
 
-/// The samples that see the robot in which each of the cables is pulled apart from the others the
-/// most.
-ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
+/// The sample that sees the robot in which an actuator is driven apart from the others the most, of
+/// one recording or, without it, of all. None where it is not driven.
+std::optional<std::size_t> MostDriven(const ObservedExperiment& observed,
+                                      const Eigen::VectorXd& most, Eigen::Index actuator,
+                                      bool in_frames, std::optional<int> recording = {}) {
+  std::optional<std::size_t> best;
+  double farthest = 0.0;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const Sample& sample = observed.samples[s];
+    if (!SeesTheRobot(sample, in_frames)) continue;
+    if (recording && sample.recording != *recording) continue;
+    const double apart = DrivenApart(observed.timeline, most, sample, actuator);
+    if (!(apart > farthest)) continue;
+    farthest = apart;
+    best = s;
+  }
+  return best;
+}
+
+/// Those samples of each actuator; of chambers those of each recording, which tell from when on a
+/// valve is blocked.
+ObservedExperiment OfMostDriven(ObservedExperiment observed, const robot::RobotBody& body,
+                                bool in_frames) {
   const Timeline& timeline = observed.timeline;
   Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.actuators));
   for (const Eigen::VectorXd& command : timeline.command) {
@@ -51,16 +71,11 @@ ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
   }
   std::set<std::size_t> telling;
   for (Eigen::Index c = 0; c < most.size(); ++c) {
-    double farthest = 0.0;
-    std::size_t best = observed.samples.size();
-    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-      if (!SeesTheRobot(observed.samples[s], in_frames)) continue;
-      const double apart = PulledApart(timeline, most, observed.samples[s], c);
-      if (!(apart > farthest)) continue;
-      farthest = apart;
-      best = s;
+    if (const auto best = MostDriven(observed, most, c, in_frames)) telling.insert(*best);
+    if (c < std::ssize(body.cables)) continue;
+    for (int r = 0; r < std::ssize(observed.recordings); ++r) {
+      if (const auto best = MostDriven(observed, most, c, in_frames, r)) telling.insert(*best);
     }
-    if (best < observed.samples.size()) telling.insert(best);
   }
   std::vector<Sample> samples;
   for (const std::size_t s : telling) samples.push_back(std::move(observed.samples[s]));
@@ -146,27 +161,28 @@ class Distance {
 
 }  // namespace
 
-NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,
-                                 int threads, SurfaceSource* source) {
+NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperiment& observed,
+                              int threads, SurfaceSource* source) {
   NearestRobot nearest{.hypothesis = NominalHypothesis(body, observed)};
   const ModelHypothesis as_in_file = nearest.hypothesis;
-  const ObservedExperiment telling = OfMostPulled(observed, source != nullptr);
+  const ObservedExperiment telling = OfMostDriven(observed, body, source != nullptr);
   Distance distance(body, telling, threads, source, as_in_file);
   const auto begin = std::chrono::steady_clock::now();
   double least_m2 = kClearlyLess * distance.MeanSquareOf_m2(as_in_file);
   nearest.sample_s =
       SecondsSince(begin) / std::max(1.0, static_cast<double>(telling.samples.size()));
-  std::vector<FaultModelPtr> exchanges;
-  MakeSwappedCables({.body = body, .observed = telling}, &exchanges);
-  MakeSwappedTubes({.body = body, .observed = telling}, &exchanges);
-  for (const FaultModelPtr& exchange : exchanges) {
+  std::vector<FaultModelPtr> far_off;
+  MakeSwappedCables({.body = body, .observed = telling}, &far_off);
+  MakeSwappedTubes({.body = body, .observed = telling}, &far_off);
+  MakeBlockedValve({.body = body, .observed = telling}, &far_off);
+  for (const FaultModelPtr& fault : far_off) {
     ModelHypothesis hypothesis = as_in_file;
-    exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
+    fault->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
     const double mean_m2 = distance.MeanSquareOf_m2(hypothesis, least_m2);
     if (!(mean_m2 < least_m2)) continue;
     least_m2 = mean_m2;
     nearest.hypothesis = std::move(hypothesis);
-    nearest.exchanged = exchange->name();
+    nearest.fault = LikelyFault{fault->name(), fault->Start()};
   }
   return nearest;
 }
