@@ -13,7 +13,7 @@ namespace palpate::rgbd {
 /// Each is a line of sight on which the material point lies. Depth camera's frame.
 struct TexturePoints {
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< centre of the colour camera
-  std::vector<std::uint32_t> ids;  ///< the same over the frames, and of no other point
+  std::vector<std::uint64_t> ids;  ///< the same over the frames, and never of another point
   Eigen::Matrix3Xf directions;     ///< [3 x n] unit
   Eigen::VectorXf sigma_rad;       ///< [n] of each component across the line of sight, > 0
 

@@ -67,7 +67,7 @@ class TextureMotion {
   bool Bind(const Line& line, const Eigen::VectorXd& x_m, Bound* bound) const;
 
   const correspondence::SurfaceFeatures& features_;
-  std::vector<std::map<std::uint32_t, Bound>> bound_;  ///< [cameras] by id
+  std::vector<std::map<std::uint64_t, Bound>> bound_;  ///< [cameras] by id
   std::vector<TextureMatch> matches_;
 };
 

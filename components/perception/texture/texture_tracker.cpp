@@ -14,6 +14,13 @@ namespace palpate::perception {
 
 namespace {
 
+/// Of the points that are first seen in a frame. No process that starts again gives the same ones,
+/// as it begins with another frame.
+std::uint64_t FirstId(std::int64_t stamp_ns) {
+  constexpr std::uint64_t kMostPoints = 2048;  // more than TextureConfig allows
+  return static_cast<std::uint64_t>(stamp_ns) * kMostPoints;
+}
+
 /// A registered colour image has the pixels of the depth image.
 const rgbd::CameraModel& LensOf(const rgbd::RgbdCamera& camera) {
   return camera.color_registered ? camera.depth : camera.color;
@@ -223,6 +230,7 @@ void TextureTracker::AddTracks(const rgbd::RgbdFrame& frame) {
   const auto most = At(config_.max_points);
   if (tracks_.size() >= most || ++frames_since_look_ < frames_to_look_again_) return;
   frames_since_look_ = 0;
+  next_id_ = std::max(next_id_, FirstId(frame.stamp_ns));
   std::vector<Eigen::Vector2d> taken_px;
   for (const Track& track : tracks_) {
     taken_px.push_back(Project(view_.camera(), PointOf(track.triangle, track.barycentric)));

@@ -66,7 +66,7 @@ class TextureTracker {
 
  private:
   struct Track {
-    std::uint32_t id;
+    std::uint64_t id;
     int triangle;
     Eigen::Vector3d barycentric;
     TexturePatch patch;
@@ -106,7 +106,7 @@ class TextureTracker {
   Eigen::Matrix3Xi triangles_;
   Eigen::Matrix2Xd objects_px_;  ///< places of objects in the colour image
   std::vector<Track> tracks_;
-  std::uint32_t next_id_ = 0;
+  std::uint64_t next_id_ = 0;
   int frames_to_look_again_ = 1;
   int frames_since_look_ = 0;
   int frames_without_texture_ = 0;

@@ -60,7 +60,7 @@ class TextureMotionTest : public testing::Test {
       }
       const Eigen::Vector3d ray =
           (view_.T_robot_camera.inverse() * place_m - texture.origin_m).normalized();
-      texture.ids.push_back(static_cast<std::uint32_t>(k) + 7);
+      texture.ids.push_back(static_cast<std::uint64_t>(k) + 7);
       texture.directions.col(ToIndex(k)) = (ray + error_rad.cross(ray)).normalized().cast<float>();
     }
     return frame;

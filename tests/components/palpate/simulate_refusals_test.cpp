@@ -31,7 +31,7 @@ TEST_F(SimulateTest, RefusesAScenarioOfAnotherRobot) {
   text.replace(text.find("0.75, top."), 10, "0.75, nort.");
   text.replace(text.find("{t_s: 1, top."), 13, "{t_s: 1, nort.");
   Scenario(text);
-  EXPECT_THAT(Refusal(), AllOf(HasSubstr("'b_pull'"), HasSubstr("no cable 'nort'")));
+  EXPECT_THAT(Refusal(), AllOf(HasSubstr("'b_pull'"), HasSubstr("no actuator 'nort'")));
   Scenario("effects: [{id: cable_gain, where: cable:north, g: 0.1}]\n" + kMarkers + kRecordings);
   EXPECT_THAT(Refusal(), AllOf(HasSubstr("s.yaml:2:11"), HasSubstr("no cable:north")));
   EXPECT_EQ(FilesOf(folder_.path()).size(), 3u);  // robot, mesh, scenario: nothing new

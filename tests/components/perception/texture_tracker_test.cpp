@@ -83,7 +83,7 @@ class TextureTrackerTest : public testing::TestWithParam<ColorCamera> {
     squared_sigmas_.clear();
     for (Eigen::Index k = 0; k < points.Count(); ++k) {
       const Eigen::Vector3d direction = points.directions.col(k).cast<double>();
-      const std::uint32_t id = points.ids[At(k)];
+      const std::uint64_t id = points.ids[At(k)];
       if (learns_ && !material_.contains(id)) {
         const auto hit = geometry::FirstOnRay(surface, points.origin_m, direction);
         ASSERT_TRUE(hit) << "a point beside the robot";
@@ -112,7 +112,7 @@ class TextureTrackerTest : public testing::TestWithParam<ColorCamera> {
   std::unique_ptr<LabelledScene> scene_;
   std::unique_ptr<TextureTracker> tracker_;
   bool learns_ = true;
-  std::map<std::uint32_t, geometry::SurfacePoint> material_;
+  std::map<std::uint64_t, geometry::SurfacePoint> material_;
   std::vector<double> errors_px_;       ///< of the last frame
   std::vector<double> squared_sigmas_;  ///< 1 where they are as large as is said
 };
@@ -159,6 +159,20 @@ TEST_P(TextureTrackerTest, SkinWithoutTextureHasNoPointsAndItSaysSo) {
 TEST_P(TextureTrackerTest, WithoutAPredictionNothingIsFollowed) {
   ShowRest("02_push");
   EXPECT_EQ(tracker_->Follow(scene_->frame(), nullptr, {}).Count(), 0);
+}
+
+/// A process that starts again must not take a point for another one that had its number.
+TEST_P(TextureTrackerTest, NumbersOfPointsAreNotUsedAgainAfterARestart) {
+  ShowRest("02_push");
+  std::vector<std::uint64_t> before;
+  for (const auto& [id, point] : material_) before.push_back(id);
+  ASSERT_GT(before.size(), 50U);
+  tracker_ = std::make_unique<TextureTracker>(TextureConfig{}, scene_->camera());
+  material_.clear();
+  learns_ = true;
+  ShowRest("02_push");
+  EXPECT_GT(material_.size(), 50U);
+  for (const std::uint64_t id : before) EXPECT_FALSE(material_.contains(id));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cameras, TextureTrackerTest,
