@@ -60,7 +60,7 @@ TEST(EffectCatalogue, EveryEntryIsFoundOnceAndHasSaneParameters) {
       EXPECT_LE(parameter.healthy, parameter.max) << kind.id << parameter.name;
     }
   }
-  EXPECT_EQ(ids.size(), 34u);
+  EXPECT_EQ(ids.size(), 41u);
   EXPECT_EQ(FindEffect("discretisation"), nullptr);
 }
 

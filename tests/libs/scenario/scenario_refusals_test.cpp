@@ -185,7 +185,7 @@ TEST(ScenarioRefusals, SuppliesThatCannotBe) {
     return RefusalWith("clutter: 0.5", "supply:\n" + supplies + "\nclutter: 0.5");
   };
   EXPECT_THAT(with("  - {valve_time_constant_s: 0.1}"),
-              HasSubstr("'supply[0].chamber' is missing"));
+              HasSubstr("key 'supply[0]': key 'chamber' is missing"));
   EXPECT_THAT(with("  - {chamber: tip, valve_time_constant_ms: 100}"),
               AllOf(StartsWith("bench/s.yaml:14:"), HasSubstr("valve_time_constant_s")));
   EXPECT_THAT(with("  - {chamber: tip, valve_time_constant_s: -0.1}"), HasSubstr("not -0.1"));
