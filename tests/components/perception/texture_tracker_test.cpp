@@ -47,8 +47,9 @@ class TextureTrackerTest : public testing::TestWithParam<ColorCamera> {
     scene_->Take(view);
     const PredictedSurface predicted = Predict(scenario_, view.nodes_m, off_m);
     const PredictedSurface truth = Predict(scenario_, view.nodes_m);
-    Compare({truth.vertices_m, truth.triangles},
-            tracker_->Follow(scene_->frame(), &predicted, Tools()));
+    rgbd::RgbdFrame frame = scene_->frame();
+    frame.stamp_ns = ++stamp_ns_;
+    Compare({truth.vertices_m, truth.triangles}, tracker_->Follow(frame, &predicted, Tools()));
   }
 
   /// The points of what is not the robot, as a segmentation finds them.
@@ -111,6 +112,7 @@ class TextureTrackerTest : public testing::TestWithParam<ColorCamera> {
   scenario::Scenario scenario_;
   std::unique_ptr<LabelledScene> scene_;
   std::unique_ptr<TextureTracker> tracker_;
+  std::int64_t stamp_ns_ = 1'700'000'000'000'000'000;
   bool learns_ = true;
   std::map<std::uint64_t, geometry::SurfacePoint> material_;
   std::vector<double> errors_px_;       ///< of the last frame
