@@ -9,13 +9,13 @@ namespace palpate::perception {
 
 /// Settings of the points of texture that are followed.
 struct TextureConfig {
-  int max_points = 150;
+  int max_points = 0;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("max_points", max_points, {.min = 0.0, .max = 2000.0},
-      "Largest number of points of the robot's texture that are followed in the colour image; 0: "
-      "none, tangential motion is not measured");
+      "Largest number of points of the robot's texture that are followed in the colour image, such "
+      "as 150; 0: none, tangential motion is not measured");
   }
 };
 

@@ -48,6 +48,7 @@ SensingSize SizeFromEnvironment() {
   size.contacts = NumberFrom("PALPATE_SENSING_CONTACTS", size.contacts);
   size.untouched_frames = NumberFrom("PALPATE_SENSING_FRAMES", size.untouched_frames);
   size.seed = static_cast<std::uint64_t>(NumberFrom("PALPATE_SENSING_SEED", 1));
+  size.texture_points = NumberFrom("PALPATE_SENSING_TEXTURE", size.texture_points);
   size.converged_truth = std::getenv("PALPATE_SENSING_CONVERGED") != nullptr;
   return size;
 }

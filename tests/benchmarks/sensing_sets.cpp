@@ -73,6 +73,7 @@ SensingChain& SensingSets::ChainOf(const Onlooker& onlooker) {
     test_support::ChainSettings settings;
     settings.eyes = onlooker.eyes;
     settings.cameras = onlooker.cameras;
+    settings.perception.texture.max_points = size_.texture_points;
     settings.weights_given = onlooker.weights_given;
     chain = std::make_unique<SensingChain>(robot_, scene_, settings, size_.seed);
     chain->Learn(kLearningFrames, kPostures, largest_command_);

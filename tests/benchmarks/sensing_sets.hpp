@@ -41,6 +41,7 @@ struct PhaseFrame {
 struct SensingSize {
   int contacts = 10;
   int untouched_frames = 300;
+  int texture_points = 0;        ///< of perception, that are followed
   bool converged_truth = false;  ///< ConvergedBallScenario in place of BallScenario
   std::uint64_t seed = 1;
 };

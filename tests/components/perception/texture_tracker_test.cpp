@@ -41,7 +41,8 @@ class TextureTrackerTest : public testing::TestWithParam<ColorCamera> {
             const Eigen::Vector3d& off_m = Eigen::Vector3d::Zero()) {
     if (scene_ == nullptr) {
       scene_ = std::make_unique<LabelledScene>(scenario_);
-      tracker_ = std::make_unique<TextureTracker>(TextureConfig{}, scene_->camera());
+      tracker_ =
+          std::make_unique<TextureTracker>(TextureConfig{.max_points = 150}, scene_->camera());
     }
     const virtual_camera::View view = PushedView(scenario_, recording, t_s);
     scene_->Take(view);
@@ -141,7 +142,7 @@ TEST_P(TextureTrackerTest, FindsThePointsAgainWhereThePredictionIsFarOff) {
 
 TEST_P(TextureTrackerTest, SkinWithoutTextureHasNoPointsAndItSaysSo) {
   LabelledScene scene(scenario_);
-  TextureTracker tracker(TextureConfig{}, scene.camera());
+  TextureTracker tracker(TextureConfig{.max_points = 150}, scene.camera());
   const virtual_camera::View view = RestView(scenario_);
   const PredictedSurface predicted = Predict(scenario_, view.nodes_m);
   std::mt19937 random(1);
@@ -169,7 +170,7 @@ TEST_P(TextureTrackerTest, NumbersOfPointsAreNotUsedAgainAfterARestart) {
   std::vector<std::uint64_t> before;
   for (const auto& [id, point] : material_) before.push_back(id);
   ASSERT_GT(before.size(), 50U);
-  tracker_ = std::make_unique<TextureTracker>(TextureConfig{}, scene_->camera());
+  tracker_ = std::make_unique<TextureTracker>(TextureConfig{.max_points = 150}, scene_->camera());
   material_.clear();
   learns_ = true;
   ShowRest("02_push");
