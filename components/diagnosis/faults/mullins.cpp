@@ -23,6 +23,9 @@ namespace {
 /// that of a robot file that softens, whose m is then searched at.
 class Mullins final : public FaultModel {
  public:
+  /// No material softens to nothing.
+  static constexpr double kLeastR = 1.001;
+
   Mullins(double m_J_m3, double inverse_r)
       : FaultModel({"mullins", {"body"}}, "strain softening of the body (Mullins effect)",
                    {{.name = "softening", .fault = 0.4, .least = 0.0, .most = 1.0},
@@ -36,16 +39,14 @@ class Mullins final : public FaultModel {
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     if (z[0] > 0.0) {
       hypothesis->mullins =
-          MullinsSoftening{std::min(1.0, InverseR(z)), parameters()[1].ValueOf(z[1])};
+          MullinsSoftening{std::min(1.0 / kLeastR, InverseR(z)), parameters()[1].ValueOf(z[1])};
     }
   }
 
-  /// A file's material never softens to nothing.
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    constexpr double kLeast = 1.001;
     if (z[0] > 0.0) {
-      robot->softening = fem::MullinsLaw{.r = std::max(kLeast, 1.0 / InverseR(z)),
+      robot->softening = fem::MullinsLaw{.r = std::max(kLeastR, 1.0 / InverseR(z)),
                                          .m_J_m3 = parameters()[1].ValueOf(z[1])};
     }
     return true;
