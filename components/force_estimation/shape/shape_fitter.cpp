@@ -59,6 +59,7 @@ void ShapeFitter::StartAt(const fem::StaticState& state) {
 }
 
 void ShapeFitter::See(const ShapeFrame& frame) {
+  texture_.Match(frame);
   places_moved_ = tracks_.See(frame.contacts, state_.x_m) || places_moved_;
   UseSites();
 }
@@ -167,11 +168,10 @@ Status ShapeFitter::Match(const ShapeFrame& frame) {
 Status ShapeFitter::MatchAndFit(const ShapeFrame& frame, const CameraBiases& bias) {
   Status status;
   const int rounds = MatchingRounds();
-  const std::vector<TextureMatch>& texture = texture_.Match(frame);
   for (int round = 0; round < rounds; ++round) {
     if (status = Match(frame); !status.ok()) return status;
     poses_ = frame.Poses();
-    targets_.Build(*matches_, texture, bias, poses_, state_.x_m, bias_x_m_, sites());
+    targets_.Build(*matches_, texture_.matches(), bias, poses_, state_.x_m, bias_x_m_, sites());
     targets_.WeighAt(state_.x_m);
     fitter_.SetRows(targets_.rows());
     matched_x_m_ = state_.x_m;

@@ -104,7 +104,8 @@ class ShapeFitter {
   bool IsWorkLimited() const { return limited_; }
   void AddWork(double work) { fitter_.AddWork(work); }
 
-  /// Updates the tracks by the contacts that perception has located.
+  /// Takes a frame's points of texture, and updates the tracks by the contacts that perception has
+  /// located.
   void See(const ShapeFrame& frame);
   /// The same about the fitted shape; true where a contact has another location.
   bool SeeAgain(const ShapeFrame& frame);

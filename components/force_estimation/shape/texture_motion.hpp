@@ -45,6 +45,8 @@ class TextureMotion {
 
   /// The bound points of a frame. Holds until the next call.
   const std::vector<TextureMatch>& Match(const ShapeFrame& frame);
+  /// Those of the last frame that was matched.
+  const std::vector<TextureMatch>& matches() const { return matches_; }
 
  private:
   /// A point of texture on the body.

@@ -71,7 +71,7 @@ const rgbd::TexturePoints& TextureTracker::Follow(const rgbd::RgbdFrame& frame,
     gray_.Take(frame.color, view_.bounds(), TexturePatch::kSide_px);
     FindTracks(frame);
     AddTracks(frame);
-    Judge(in_view_);
+    Judge();
   }
   Report();
   return points_;
@@ -82,19 +82,28 @@ void TextureTracker::Look(const PredictedSurface& surface, const rgbd::SensedClo
   vertices_m_ = T_color_depth * surface.vertices_m.colwise().homogeneous();
   triangles_ = surface.triangles;
   view_.Look(vertices_m_, triangles_);
-  objects_px_.resize(2, objects.Count());
-  for (Eigen::Index k = 0; k < objects.Count(); ++k) {
-    const Eigen::Vector3d point_m = T_color_depth * objects.points_m.col(k).cast<double>();
-    objects_px_.col(k) = Project(view_.camera(), point_m);
+  TakeObjects(T_color_depth * objects.points_m.cast<double>().colwise().homogeneous());
+}
+
+/// Those that a patch on the drawn surface may show.
+void TextureTracker::TakeObjects(const Eigen::Matrix3Xd& points_m) {
+  const rgbd::SurfaceView::Bounds& drawn = view_.bounds();
+  constexpr int kReach_px = TexturePatch::kHalf_px;
+  objects_px_.clear();
+  for (const Eigen::Vector3d point_m : points_m.colwise()) {
+    const Eigen::Vector2d place_px = Project(view_.camera(), point_m);
+    const bool is_near =
+        place_px.x() >= drawn.u_begin - kReach_px && place_px.x() < drawn.u_end + kReach_px &&
+        place_px.y() >= drawn.v_begin - kReach_px && place_px.y() < drawn.v_end + kReach_px;
+    if (is_near) objects_px_.push_back(place_px);
   }
 }
 
 /// Whether the patch there shows a part of an object.
 bool TextureTracker::IsUnderObject(const Eigen::Vector2d& place_px) const {
-  for (const Eigen::Vector2d object_px : objects_px_.colwise()) {
-    if ((object_px - place_px).lpNorm<Eigen::Infinity>() <= TexturePatch::kHalf_px) return true;
-  }
-  return false;
+  return std::any_of(objects_px_.begin(), objects_px_.end(), [&](const Eigen::Vector2d& object_px) {
+    return (object_px - place_px).lpNorm<Eigen::Infinity>() <= TexturePatch::kHalf_px;
+  });
 }
 
 Eigen::Vector3d TextureTracker::PointOf(int triangle, const Eigen::Vector3d& barycentric) const {
@@ -246,8 +255,8 @@ void TextureTracker::AddTracks(const rgbd::RgbdFrame& frame) {
                                 : std::min(2 * frames_to_look_again_, tuning_.longest_pause_frames);
 }
 
-void TextureTracker::Judge(int in_view) {
-  frames_without_texture_ = in_view < tuning_.fewest_points ? frames_without_texture_ + 1 : 0;
+void TextureTracker::Judge() {
+  frames_without_texture_ = in_view_ < tuning_.fewest_points ? frames_without_texture_ + 1 : 0;
   if (frames_without_texture_ < tuning_.frames_to_judge) return;
   note_ =
       "the robot's surface shows too little texture to follow: its tangential motion is not "

@@ -82,6 +82,7 @@ class TextureTracker {
   };
 
   void Look(const PredictedSurface& surface, const rgbd::SensedCloud& objects);
+  void TakeObjects(const Eigen::Matrix3Xd& points_m);
   std::optional<Expected> Expect(const Track& track) const;
   Eigen::Matrix2d EdgesAt(int triangle, const Eigen::Vector3d& point_m) const;
   bool IsHidden(const rgbd::RgbdFrame& frame, const Eigen::Vector3d& point_m) const;
@@ -94,7 +95,7 @@ class TextureTracker {
   std::optional<FoundPatch> Search(const Track& track, const Expected& expected) const;
   void AddTracks(const rgbd::RgbdFrame& frame);
   std::optional<Track> TrackAt(const rgbd::RgbdFrame& frame, const Eigen::Vector2i& seed_px);
-  void Judge(int in_view);
+  void Judge();
   void Report();
 
   TextureConfig config_;
@@ -104,7 +105,7 @@ class TextureTracker {
   GrayWindow gray_;
   Eigen::Matrix3Xd vertices_m_;  ///< of the surface, colour camera's frame
   Eigen::Matrix3Xi triangles_;
-  Eigen::Matrix2Xd objects_px_;  ///< places of objects in the colour image
+  std::vector<Eigen::Vector2d> objects_px_;  ///< places of objects on or near the surface
   std::vector<Track> tracks_;
   std::uint64_t next_id_ = 0;
   int frames_to_look_again_ = 1;
