@@ -65,7 +65,7 @@ double NoiseScale(double chi_squared, const RowTargets& targets, size_t contacts
 
 }  // namespace
 
-ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter)
+ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, ForceNewton& fitter)
     : config_(config), fitter_(fitter), candidates_(model, config) {
   fitter_.KeepFactor(true);  // from frame to frame, and from the screening to the fits
 }

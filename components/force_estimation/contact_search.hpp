@@ -10,7 +10,7 @@
 
 #include "components/force_estimation/contact_candidates.hpp"
 #include "components/force_estimation/contact_site.hpp"
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/target_pool.hpp"
 #include "libs/fem/static_solver.hpp"
 
@@ -42,7 +42,7 @@ class ContactSearch {
 
   /// `model` and `fitter` must outlive the search. Throws InputError where the robot has no feature
   /// points.
-  ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter);
+  ContactSearch(robot::RobotModel& model, const Config& config, ForceNewton& fitter);
 
   /// `shared_variance_m2` [rows]: the part of the variance that is of an error which all frames
   /// share. `free_state`: the equilibrium without contact under these cable inputs.
@@ -101,7 +101,7 @@ class ContactSearch {
                       double noise_scale);
 
   Config config_;
-  ForceFitter& fitter_;
+  ForceNewton& fitter_;
   ContactCandidates candidates_;
   TargetPool pool_;
   Found found_;

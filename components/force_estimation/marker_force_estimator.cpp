@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "components/force_estimation/contact_search.hpp"
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/marker_offset_calibration.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -155,7 +155,7 @@ class MarkerForceEstimator::Impl {
   std::vector<double> marker_weight_;
   MarkerOffsetCalibration offsets_;
   robot::HistoryState history_;
-  ForceFitter fitter_;
+  ForceNewton fitter_;
   std::optional<ContactSearch> search_;  ///< where the settings give no contact
   RowTargets targets_;
   Eigen::VectorXd shared_variance_m2_;  ///< [3m] part of the variance that all frames share

@@ -10,7 +10,7 @@
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/contact_site.hpp"
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/force_estimate.hpp"
 #include "components/force_estimation/marker_frame.hpp"
 #include "libs/core/status.hpp"
@@ -46,7 +46,7 @@ class MarkerForceEstimator {
   ~MarkerForceEstimator();
 
   /// The estimate stays valid until the next call. With given contact sites nothing is allocated
-  /// after the first frame, unless one needs a continuation step (fit/force_fitter.hpp) or the pose
+  /// after the first frame, unless one needs a continuation step (fit/force_newton.hpp) or the pose
   /// has an error.
   const ForceEstimate& Update(const MarkerFrame& frame);
 

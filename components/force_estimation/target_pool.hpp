@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 
 namespace palpate::force_estimation {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "libs/fem/sparse/solver_settings.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "tests/benchmarks/robots.hpp"
@@ -58,7 +58,7 @@ class SensingScene {
 
   robot::RobotModel model_;
   std::vector<force_estimation::FitSite> sites_;
-  force_estimation::ForceFitter fitter_;
+  force_estimation::ForceNewton fitter_;
   Update update_;
   std::vector<Frame> frames_;  ///< the first half of the cycle; the way back is the same
   size_t next_ = 0;

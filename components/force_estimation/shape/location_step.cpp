@@ -26,7 +26,7 @@ Eigen::Matrix<double, 3, 2> Tangents(const Eigen::Vector3d& normal) {
   return tangents;
 }
 
-LocationStep::LocationStep(robot::RobotModel& model, ForceFitter& fitter,
+LocationStep::LocationStep(robot::RobotModel& model, ForceNewton& fitter,
                            const LocationStepTuning& tuning)
     : model_(model),
       fitter_(fitter),

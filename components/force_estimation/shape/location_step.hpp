@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/shape/shape_site.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -34,7 +34,7 @@ struct LocationStepTuning {
 class LocationStep {
  public:
   /// `model` and `fitter` must outlive this.
-  LocationStep(robot::RobotModel& model, ForceFitter& fitter,
+  LocationStep(robot::RobotModel& model, ForceNewton& fitter,
                const LocationStepTuning& tuning = {});
 
   /// About the last fit of `fitter`, whose sites are `sites` in the same order. `residual_m`,
@@ -47,7 +47,7 @@ class LocationStep {
   void AddForces(const ShapeSite& site, const Eigen::Vector3d& force_N, Eigen::Index column);
 
   robot::RobotModel& model_;
-  ForceFitter& fitter_;
+  ForceNewton& fitter_;
   LocationStepTuning tuning_;
   Eigen::MatrixXd jacobian_;        ///< [rows x 5k] forces, then locations
   Eigen::MatrixXd nodal_forces_N_;  ///< [3n x 2k]

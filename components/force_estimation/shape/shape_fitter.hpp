@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "components/force_estimation/config.hpp"
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/contact_tracks.hpp"
 #include "components/force_estimation/shape/location_step.hpp"
@@ -159,8 +159,8 @@ class ShapeFitter {
   ContactTracks& tracks() { return tracks_; }
   const ContactTracks& tracks() const { return tracks_; }
   const std::vector<ShapeSite>& sites() const { return tracks_.sites(); }
-  ForceFitter& fitter() { return fitter_; }
-  const ForceFitter& fitter() const { return fitter_; }
+  ForceNewton& fitter() { return fitter_; }
+  const ForceNewton& fitter() const { return fitter_; }
   const ModelState& state() const { return state_; }
   const std::vector<LocatedForce>& located() const { return located_; }
   /// Mean square of residual over expected error, of the last fit; 1 where it fits.
@@ -205,7 +205,7 @@ class ShapeFitter {
   TextureMotion texture_;
   ShapeTargets targets_;
   ContactTracks tracks_;
-  ForceFitter fitter_;
+  ForceNewton fitter_;
   LocationStep location_;
   bool limited_ = false;
   fem::TimeBudget budget_;      ///< of work that can be postponed

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/shape/camera_biases.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_site.hpp"

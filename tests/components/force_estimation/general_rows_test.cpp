@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/shape/location_step.hpp"
 #include "components/force_estimation/shape/surface_map.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
@@ -62,7 +62,7 @@ class GeneralRows : public testing::Test {
   }
 
   std::unique_ptr<robot::RobotModel> model_;
-  ForceFitter fitter_;
+  ForceNewton fitter_;
   std::vector<robot::ObservationRow> rows_;
   fem::StaticState free_;
 };

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 
 namespace palpate::force_estimation {
@@ -19,7 +19,7 @@ Status FitWhereACablePushes(double most_push_N) {
   const fem::StaticState balance = SolveTruth(*model, cables, {});
   Config config;
   config.frame_tolerance = 0.1;
-  ForceFitter fitter(*model, config);
+  ForceNewton fitter(*model, config);
   fitter.KeepFactor(true);
   fitter.TolerateCablesThatPush(most_push_N);
   RowTargets targets;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "libs/robot/frame_tracker.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/feature_point_targets.hpp"
@@ -49,7 +49,7 @@ double ResidualOf(robot::RobotModel& model, const fem::InterpolationWeights& pat
 
 /// Fits the frames of one loading, each from what came of the one before.
 void FitLoading(robot::RobotModel& model, const RandomLoading& loading,
-                const fem::StaticState& at_rest, ForceFitter* fitter, FrameTally* tally) {
+                const fem::StaticState& at_rest, ForceNewton* fitter, FrameTally* tally) {
   const fem::SurfacePatch patch = model.Patch(loading.point_m, loading.patch_radius_m);
   fitter->SetSites({{.patch = patch}});
   robot::FrameTracker truth(model, {.relative_tolerance = 1e-9});
@@ -96,7 +96,7 @@ void FitLoadings(const std::string& name, const robot::RobotDescription& robot, 
   ASSERT_TRUE(model.Solve(slack, {}, &at_rest).status.ok());
   Config config;
   config.frame_tolerance = 1e-8;
-  ForceFitter fitter(model, config);
+  ForceNewton fitter(model, config);
   const test_support::LoadingRange range = test_support::LoadingsToRun(by_default);
   FrameTally tally;
   for (int index = range.first; index < range.end; ++index) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/feature_point_targets.hpp"
 #include "tests/support/random_loading.hpp"
@@ -94,7 +94,7 @@ void ExpectConvergenceInFourSteps(const robot::RobotDescription& robot) {
   Sweep sweep(robot);
   Config config;
   config.frame_tolerance = 1e-8;
-  ForceFitter fitter(sweep.model(), config);
+  ForceNewton fitter(sweep.model(), config);
   fitter.SetSites(sweep.sites());
   ModelState state = sweep.Start();
   for (int frame = 1; frame <= Sweep::kFrames; ++frame) {
@@ -112,7 +112,7 @@ void ExpectSmallErrorWithOneStepAFrame(const robot::RobotDescription& robot) {
   Config config;
   config.frame_tolerance = 1e-8;
   config.max_iterations = 1;
-  ForceFitter fitter(sweep.model(), config);
+  ForceNewton fitter(sweep.model(), config);
   fitter.SetSites(sweep.sites());
   ModelState state = sweep.Start();
   std::vector<double> errors_m;
@@ -127,23 +127,23 @@ void ExpectSmallErrorWithOneStepAFrame(const robot::RobotDescription& robot) {
   EXPECT_LE(errors_m[errors_m.size() / 2], 0.03e-3);
 }
 
-TEST(ForceFitterSweep, ConvergesOnTheDiamondInFourSteps) {
+TEST(ForceNewtonSweep, ConvergesOnTheDiamondInFourSteps) {
   const auto robot = test_support::DiamondRobot();
   if (!robot) GTEST_SKIP() << "the paper's mesh is not there (PALPATE_DATA_DIR)";
   ExpectConvergenceInFourSteps(*robot);
 }
 
-TEST(ForceFitterSweep, ConvergesOnOurRobotInFourSteps) {
+TEST(ForceNewtonSweep, ConvergesOnOurRobotInFourSteps) {
   ExpectConvergenceInFourSteps(test_support::LockingFourLegRobot());
 }
 
-TEST(ForceFitterSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
+TEST(ForceNewtonSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
   const auto robot = test_support::DiamondRobot();
   if (!robot) GTEST_SKIP() << "the paper's mesh is not there (PALPATE_DATA_DIR)";
   ExpectSmallErrorWithOneStepAFrame(*robot);
 }
 
-TEST(ForceFitterSweep, OneStepAFrameFollowsOurRobotWithinThreeHundredthsOfAMillimetre) {
+TEST(ForceNewtonSweep, OneStepAFrameFollowsOurRobotWithinThreeHundredthsOfAMillimetre) {
   ExpectSmallErrorWithOneStepAFrame(test_support::LockingFourLegRobot());
 }
 

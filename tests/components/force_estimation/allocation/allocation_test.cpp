@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/heap_counter.hpp"
@@ -98,7 +98,7 @@ TEST(ForceEstimationAllocation, StepsWithAKeptFactorAndSecantsTakeNoMemory) {
   for (const MarkerFrame& frame : frames) targets.push_back(TargetsOf(frame));
   Config config;
   config.frame_tolerance = 1e-7;
-  ForceFitter fitter(*model, config);
+  ForceNewton fitter(*model, config);
   fitter.KeepFactor(true);
   fitter.SetSites({{.patch = model->Patch({0.0, 0.0, 0.125}, 0.008)}});
   fem::StaticState rest = model->RestState();

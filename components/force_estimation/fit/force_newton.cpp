@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/fit/force_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
-#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
 
@@ -18,10 +16,7 @@ namespace {
 
 using Kind = robot::ActuatorCommand::Kind;
 
-struct ForceFitterTuning {
-  /// Changes between taut and slack cables in one QP. More serve robots of many cables; each costs
-  /// a condensation.
-  int most_set_changes = 12;
+struct ForceNewtonTuning {
   /// Weight of the error of the state at which the tangent was taken. Larger: intervals of the
   /// fitted state itself, for more factorisations. Smaller: fewer factorisations, intervals of a
   /// state further away.
@@ -34,11 +29,8 @@ struct ForceFitterTuning {
   /// Rounding of the weighted residual, relative, below which a continuation step has not raised
   /// it.
   double residual_rounding = 1e-9;
-  /// Directions with less information than this share of the largest have no covariance. Larger
-  /// hides uncertain directions, smaller lets rounding pass for information.
-  double least_information = 1e-14;
 };
-constexpr ForceFitterTuning kForceFitterTuning;
+constexpr ForceNewtonTuning kForceNewtonTuning;
 
 std::vector<robot::ObservationRow> MarkerRows(const robot::RobotModel& model) {
   std::vector<fem::InterpolationWeights> points;
@@ -58,34 +50,20 @@ std::vector<robot::ForceDirection> Directions(const std::vector<FitSite>& sites)
   return directions;
 }
 
-/// Inverse in the directions that have information. Those of infinite variance are not in the
-/// basis.
-fem::QpMatrix PseudoInverse(const fem::QpMatrix& information) {
-  const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(information);
-  fem::QpMatrix inverse = fem::QpMatrix::Zero(information.rows(), information.cols());
-  for (Eigen::Index k = 0; k < information.rows(); ++k) {
-    const double value = eigen.values[k];
-    if (value <= kForceFitterTuning.least_information * eigen.values.maxCoeff()) continue;
-    inverse += eigen.vectors.col(k) * eigen.vectors.col(k).transpose() / value;
-  }
-  return inverse;
-}
-
 bool Diverged(const Status& status) {
   return !status.ok() && status.code() != StatusCode::kBudgetReached;
 }
 
 }  // namespace
 
-ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
+ForceNewton::ForceNewton(robot::RobotModel& model, const Config& config)
     : model_(model),
       config_(config),
       compliance_(model.linearisation(), MarkerRows(model)),
-      static_solver_(model.linearisation(), kForceFitterTuning.continuation),
-      condensation_(static_cast<int>(3 * model.body().markers.size()), model.traits()),
+      static_solver_(model.linearisation(), kForceNewtonTuning.continuation),
+      qp_(static_cast<int>(3 * model.body().markers.size()), model.traits()),
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())),
       external_force_N_(weight_N_),
-      new_lambda_a_(model.ActuatorCount()),
       nodal_(weight_N_),
       gradient_(weight_N_),
       cable_gradient_(weight_N_),
@@ -96,65 +74,61 @@ ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
   SetSites({});
 }
 
-void ForceFitter::KeepFactor(bool keep) {
+void ForceNewton::KeepFactor(bool keep) {
   keep_factor_ = keep;
   if (keep) model_.linearisation().KeepSinglePrecision();
 }
 
-void ForceFitter::SetRows(std::vector<robot::ObservationRow> rows) {
+void ForceNewton::SetRows(std::vector<robot::ObservationRow> rows) {
   const auto count = ToIndex(rows.size());
   compliance_.SetEffectors(std::move(rows));
   effector_motion_.resize(count);
   fit_.residual_m = Eigen::VectorXd::Zero(count);
 }
 
-void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
-  PALPATE_CHECK(3 * sites.size() <= static_cast<size_t>(fem::kMaxQpVariables), sites.size());
-  sites_ = sites;
+void ForceNewton::SetSites(const std::vector<FitSite>& sites) {
+  qp_.SetSites(sites);
   compliance_.SetForces(Directions(sites));
   const auto forces = ToIndex(3 * sites.size());
-  new_lambda_f_ = Eigen::VectorXd::Zero(forces);
   fit_.covariance_N2 = Eigen::MatrixXd::Zero(forces, forces);
   fit_.unfitted_error = fem::QpMatrix::Zero(forces, 0);
   fit_.unfitted_sites.clear();
   fit_.modulus_sensitivity_N = Eigen::VectorXd::Zero(forces);
-  prior_information_ = fem::QpMatrix::Zero(forces, forces);
   if (forces != from_.lambda_f_N.size() || from_.x_m.size() == 0) {
     for (FitVariables* variables : {&from_, &step_, &correction_}) {
       variables->x_m = weight_N_;
-      variables->lambda_a_N = new_lambda_a_;
-      variables->lambda_f_N = new_lambda_f_;
+      variables->lambda_a_N = qp_.lambda_a_N();
+      variables->lambda_f_N = qp_.lambda_f_N();
     }
     accelerator_.SetUp(weight_N_.size(), model_.ActuatorCount(), forces);
   }
-  observable_.IncludeAll(sites_);
   last_good_.valid = false;
   factor_.columns_current = false;
   factor_.evaluated.valid = false;
 }
 
-const ForceFit& ForceFitter::Fit(const RowTargets& targets,
+const ForceFit& ForceNewton::Fit(const RowTargets& targets,
                                  const std::vector<robot::ActuatorCommand>& cables,
                                  ModelState* state, const fem::TimeBudget& budget) {
   frame_ = {.targets = &targets, .cables = &cables, .budget = &budget, .state = state};
   fit_.iterations = fit_.chord_steps = fit_.continuation_steps = 0;
   UpdateWeight();
-  observable_.IncludeAll(sites_);
+  qp_.IncludeAllDirections();
   start_ = *state;
   fit_.status = FitWithContinuation();
   if (fit_.status.ok()) fit_.status = Conclude();
   if (Diverged(fit_.status)) *state = start_;
   factor_.evaluated = *state;
   factor_.evaluated.valid = fit_.status.ok();
-  fit_.observability = observable_.observability();
-  fit_.unknowns = observable_.unknowns();
+  fit_.observability = qp_.observable().observability();
+  fit_.unknowns = qp_.observable().unknowns();
   return fit_;
 }
 
 /// Newton's method with a frozen factor where one is kept. Where it diverges, exact steps from the
 /// start: steps with the factor of another state may lead to where exact ones do not converge.
 /// Where these diverge, too, continuation steps, after each of which exact steps are tried.
-Status ForceFitter::FitWithContinuation() {
+Status ForceNewton::FitWithContinuation() {
   Status status = RunNewton(/*exact_only=*/false);
   if (Diverged(status) && fit_.chord_steps > 0) {
     *frame_.state = start_;
@@ -171,7 +145,7 @@ Status ForceFitter::FitWithContinuation() {
   return status;
 }
 
-Status ForceFitter::RunNewton(bool exact_only) {
+Status ForceNewton::RunNewton(bool exact_only) {
   const bool keep_factor =
       keep_factor_ && !exact_only && factor_.excess_work < kFactorWork + kColumnsWork;
   const fem::FrameOutcome outcome = fem::SolveNewton(
@@ -190,7 +164,7 @@ Status ForceFitter::RunNewton(bool exact_only) {
   return outcome.status;
 }
 
-Status ForceFitter::PrepareExactStep() {
+Status ForceNewton::PrepareExactStep() {
   const ModelState& state = *frame_.state;
   Status status = Linearise(state, /*allow_shift=*/false);
   if (!status.ok()) return status;
@@ -200,7 +174,7 @@ Status ForceFitter::PrepareExactStep() {
 }
 
 /// With the factor of an earlier frame, the residual is of this state and W of the factor's state.
-Status ForceFitter::PrepareFrozenFactorStep() {
+Status ForceNewton::PrepareFrozenFactorStep() {
   accelerator_.BeginFit();
   if (!factor_.known) return {};
   const ModelState& state = *frame_.state;
@@ -225,32 +199,37 @@ Status ForceFitter::PrepareFrozenFactorStep() {
   return status;
 }
 
-bool ForceFitter::IsEvaluated(const ModelState& state) const {
+bool ForceNewton::IsEvaluated(const ModelState& state) const {
   return factor_.evaluated.valid && factor_.columns_current &&
          factor_.evaluated.lambda_f_N == state.lambda_f_N &&
          factor_.evaluated.lambda_a_N == state.lambda_a_N && factor_.evaluated.x_m == state.x_m;
 }
 
-Status ForceFitter::SolveInObservableDirections(const ModelState& state) {
-  condensation_.Start(*frame_.cables, state.lambda_a_N);
-  Status status = SolveQp(*frame_.targets, *frame_.cables, state);
+Status ForceNewton::SolveInObservableDirections(const ModelState& state) {
+  qp_.Start(*frame_.cables, state.lambda_a_N);
+  Status status = SolveQp(state);
   if (status.ok() && !frame_.observability_known) {
-    observable_.KeepObservable(sites_, Information(*frame_.targets), config_.unobservable_sigma_N);
+    qp_.KeepObservable(*frame_.targets, config_.unobservable_sigma_N);
     frame_.observability_known = true;
-    status = SolveQp(*frame_.targets, *frame_.cables, state);
+    status = SolveQp(state);
   }
   return status;
 }
 
-Status ForceFitter::Try(double length, bool last) {
+/// About the last linearisation, whose state is `state`.
+Status ForceNewton::SolveQp(const ModelState& state) {
+  return qp_.Solve(compliance_, *frame_.targets, *frame_.cables, state.lambda_f_N);
+}
+
+Status ForceNewton::Try(double length, bool last) {
   const ModelState& state = *frame_.state;
   const double share = StepFraction(state);
   trial_.was_cut = share < 1.0;
   length *= share;
   trial_.state.x_m = state.x_m;
-  compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.state.x_m);
-  trial_.state.lambda_a_N = state.lambda_a_N + length * (new_lambda_a_ - state.lambda_a_N);
-  trial_.state.lambda_f_N = state.lambda_f_N + length * (new_lambda_f_ - state.lambda_f_N);
+  compliance_.UpdateConfiguration(qp_.lambda_a_N(), qp_.lambda_f_N(), length, &trial_.state.x_m);
+  trial_.state.lambda_a_N = state.lambda_a_N + length * (qp_.lambda_a_N() - state.lambda_a_N);
+  trial_.state.lambda_f_N = state.lambda_f_N + length * (qp_.lambda_f_N() - state.lambda_f_N);
   if (keep_factor_ && length == 1.0) Accelerate();
   UpdateExternalForce(trial_.state.lambda_f_N);
   Status status = model_.linearisation().UpdateResidual(trial_.state.x_m, trial_.state.lambda_a_N,
@@ -262,19 +241,19 @@ Status ForceFitter::Try(double length, bool last) {
   work_ += 1.0;
   compliance_.ComputeChord(trial_.state.x_m, model_.actuator_rest_m(), trial_.state.lambda_a_N,
                            trial_.state.lambda_f_N);
-  status = SolveQp(*frame_.targets, *frame_.cables, trial_.state);
+  status = SolveQp(trial_.state);
   if (!status.ok()) return status;
   trial_.error = Error(trial_.state);
   // The age of a kept factor says little about its error.
   if (!keep_factor_) {
     trial_.error =
-        std::max(trial_.error, kForceFitterTuning.tangent_error_weight * factor_.tangent_error);
+        std::max(trial_.error, kForceNewtonTuning.tangent_error_weight * factor_.tangent_error);
   }
   return status;
 }
 
 /// Adds to the trial what the last steps with this factor say of the factor's error.
-void ForceFitter::Accelerate() {
+void ForceNewton::Accelerate() {
   const ModelState& state = *frame_.state;
   step_.x_m = trial_.state.x_m - state.x_m;
   step_.lambda_a_N = trial_.state.lambda_a_N - state.lambda_a_N;
@@ -288,19 +267,19 @@ void ForceFitter::Accelerate() {
   trial_.state.lambda_f_N += correction_.lambda_f_N;
 }
 
-void ForceFitter::AcceptTrial() {
+void ForceNewton::AcceptTrial() {
   frame_.state->x_m.swap(trial_.state.x_m);
   frame_.state->lambda_a_N.swap(trial_.state.lambda_a_N);
   frame_.state->lambda_f_N.swap(trial_.state.lambda_f_N);
 }
 
 /// `state`: the last one at which linearisation and QP were evaluated.
-double ForceFitter::Error(const ModelState& state) const {
+double ForceNewton::Error(const ModelState& state) const {
   return std::max(EquilibriumError(state), ForceChangeError(state));
 }
 
 /// `state`: the last one at which the linearisation was evaluated.
-double ForceFitter::EquilibriumError(const ModelState& state) const {
+double ForceNewton::EquilibriumError(const ModelState& state) const {
   const fem::Linearisation& linearisation = model_.linearisation();
   const double residual_N = linearisation.residual_N().norm();
   double error = CableError(state);
@@ -314,7 +293,7 @@ double ForceFitter::EquilibriumError(const ModelState& state) const {
 
 /// Length by which a taut cable misses its displacement, or by which a slack one is too long, over
 /// its rest length; the same of chambers; the largest of all.
-double ForceFitter::CableError(const ModelState& state) const {
+double ForceNewton::CableError(const ModelState& state) const {
   double error = 0.0;
   for (int c = 0; c < model_.ActuatorCount(); ++c) {
     const robot::ActuatorCommand& command = (*frame_.cables)[At(c)];
@@ -329,40 +308,40 @@ double ForceFitter::CableError(const ModelState& state) const {
 }
 
 /// Largest change of a force in the QP's solution, over the largest contact force, or 1 N.
-double ForceFitter::ForceChangeError(const ModelState& state) const {
-  const double change = std::max((new_lambda_f_ - state.lambda_f_N).lpNorm<Eigen::Infinity>(),
-                                 (new_lambda_a_ - state.lambda_a_N).lpNorm<Eigen::Infinity>());
-  return change / std::max(1.0, new_lambda_f_.lpNorm<Eigen::Infinity>());
+double ForceNewton::ForceChangeError(const ModelState& state) const {
+  const double change = std::max((qp_.lambda_f_N() - state.lambda_f_N).lpNorm<Eigen::Infinity>(),
+                                 (qp_.lambda_a_N() - state.lambda_a_N).lpNorm<Eigen::Infinity>());
+  return change / std::max(1.0, qp_.lambda_f_N().lpNorm<Eigen::Infinity>());
 }
 
 /// Fraction of the QP's step that LimitForceStep admits.
-double ForceFitter::StepFraction(const ModelState& state) const {
-  const double change_N = (new_lambda_f_ - state.lambda_f_N).lpNorm<Eigen::Infinity>();
+double ForceNewton::StepFraction(const ModelState& state) const {
+  const double change_N = (qp_.lambda_f_N() - state.lambda_f_N).lpNorm<Eigen::Infinity>();
   return longest_step_N_ > 0.0 && change_N > longest_step_N_ ? longest_step_N_ / change_N : 1.0;
 }
 
 /// One continuation step: the largest share of the QP's change of forces after which the model is
 /// in equilibrium and the rows' residual has not risen.
-Status ForceFitter::ContinueAlongEquilibria() {
+Status ForceNewton::ContinueAlongEquilibria() {
   const ModelState& state = *frame_.state;
   Status status = Linearise(state, /*allow_shift=*/true);
   if (!status.ok()) return status;
   ++fit_.iterations;
-  condensation_.Start(*frame_.cables, state.lambda_a_N);
-  status = SolveQp(*frame_.targets, *frame_.cables, state);
+  qp_.Start(*frame_.cables, state.lambda_a_N);
+  status = SolveQp(state);
   if (!status.ok()) return status;
   double fraction = 1.0;
-  for (int k = 0; k < kForceFitterTuning.most_halvings; ++k, fraction *= 0.5) {
+  for (int k = 0; k < kForceNewtonTuning.most_halvings; ++k, fraction *= 0.5) {
     status = StepToEquilibrium(fraction);
     if (status.ok() || status.code() == StatusCode::kBudgetReached) return status;
   }
   return {StatusCode::kNotConverged, {}};
 }
 
-Status ForceFitter::StepToEquilibrium(double fraction) {
+Status ForceNewton::StepToEquilibrium(double fraction) {
   ModelState& state = *frame_.state;
   ModelState moved = state;
-  moved.lambda_f_N += fraction * (new_lambda_f_ - state.lambda_f_N);
+  moved.lambda_f_N += fraction * (qp_.lambda_f_N() - state.lambda_f_N);
   fem::LoadState loads = model_.Loads(*frame_.cables, {});
   fem::StaticState body{state.x_m, state.lambda_a_N, loads};
   UpdateExternalForce(state.lambda_f_N);
@@ -377,13 +356,13 @@ Status ForceFitter::StepToEquilibrium(double fraction) {
   // The residual before is comparable only where the state before was an equilibrium.
   const double before = ChiSquared(*frame_.targets, state, &fit_.residual_m);
   const double after = ChiSquared(*frame_.targets, moved, &fit_.residual_m);
-  if (state.balanced && after > before * (1.0 + kForceFitterTuning.residual_rounding))
+  if (state.balanced && after > before * (1.0 + kForceNewtonTuning.residual_rounding))
     return {StatusCode::kNotConverged, {}};
   state = std::move(moved);
   return Status::Ok();
 }
 
-Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
+Status ForceNewton::Linearise(const ModelState& state, bool allow_shift) {
   UpdateExternalForce(state.lambda_f_N);
   factor_.known = false;
   factor_.excess_work = 0.0;
@@ -398,66 +377,19 @@ Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
   return status;
 }
 
-void ForceFitter::UpdateWeight() {
+void ForceNewton::UpdateWeight() {
   weight_N_.setZero();
   model_.AddWeight(weight_N_);
 }
 
-void ForceFitter::UpdateExternalForce(const Eigen::VectorXd& lambda_f_N) {
+void ForceNewton::UpdateExternalForce(const Eigen::VectorXd& lambda_f_N) {
   external_force_N_ = weight_N_;
   for (size_t f = 0; f < compliance_.forces().size(); ++f) {
     compliance_.forces()[f].AddForce(lambda_f_N[ToIndex(f)], external_force_N_);
   }
 }
 
-fem::QpMatrix ForceFitter::Information(const RowTargets& targets) const {
-  const Eigen::MatrixXd& G = condensation_.G();
-  fem::QpMatrix information = prior_information_;
-  for (Eigen::Index i = 0; i < G.cols(); ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const double sum = (G.col(i).array() * G.col(j).array() * targets.weight.array()).sum();
-      information(i, j) += sum;
-      if (i != j) information(j, i) += sum;
-    }
-  }
-  return information;
-}
-
-/// Eqs. (11), (12) in the observable directions. The taut cables are found with the forces.
-Status ForceFitter::SolveQp(const RowTargets& targets,
-                            const std::vector<robot::ActuatorCommand>& cables,
-                            const ModelState& state) {
-  const fem::QpMatrix& basis = observable_.basis();
-  const Eigen::Index q = basis.cols();
-  fem::BoundedQp qp;
-  qp.lower = fem::QpVector::Constant(q, -std::numeric_limits<double>::infinity());
-  qp.upper = -qp.lower;
-  qp_start_ = basis.transpose() * state.lambda_f_N;
-  for (int round = 0; round < kForceFitterTuning.most_set_changes; ++round) {
-    if (Status status = condensation_.Condense(compliance_, cables); !status.ok()) return status;
-    const Eigen::MatrixXd& G = condensation_.G();
-    fem::QpVector c(G.cols());
-    for (Eigen::Index j = 0; j < G.cols(); ++j) {
-      c[j] = (G.col(j).array() * targets.weight.array() *
-              (condensation_.e0_m() - targets.value_m).array())
-                 .sum();
-    }
-    qp.H = basis.transpose() * Information(targets) * basis;
-    qp.c = basis.transpose() * c;
-    if (q > 0) {
-      const fem::BoundedQpResult solution = fem::SolveBoundedQp(qp, qp_start_);
-      if (!solution.status.ok()) return solution.status;
-      new_lambda_f_ = basis * solution.x;
-    } else {
-      new_lambda_f_.setZero();
-    }
-    if (condensation_.Settle(compliance_, cables, new_lambda_f_)) break;
-  }
-  condensation_.CableForces(new_lambda_f_, &new_lambda_a_);
-  return Status::Ok();
-}
-
-double ForceFitter::ChiSquared(const RowTargets& targets, const ModelState& state,
+double ForceNewton::ChiSquared(const RowTargets& targets, const ModelState& state,
                                Eigen::VectorXd* residual_m) const {
   double sum = 0.0;
   for (size_t r = 0; r < rows().size(); ++r) {
@@ -471,35 +403,22 @@ double ForceFitter::ChiSquared(const RowTargets& targets, const ModelState& stat
 }
 
 /// Residual, covariance and sensitivity to the modulus of a converged fit.
-Status ForceFitter::Conclude() {
+Status ForceNewton::Conclude() {
   const RowTargets& targets = *frame_.targets;
   const ModelState& state = *frame_.state;
   fit_.chi_squared = ChiSquared(targets, state, &fit_.residual_m);
   if (Status status = CheckTensions(state); !status.ok()) return status;
-  const fem::QpMatrix& basis = observable_.basis();
-  const fem::QpMatrix reduced = basis.transpose() * Information(targets) * basis;
-  fit_.covariance_N2 = basis * PseudoInverse(reduced) * basis.transpose();
-  UnfittedError(targets);
+  const fem::QpMatrix covariance_N2 = qp_.Covariance_N2(targets);
+  fit_.covariance_N2 = covariance_N2;
+  fit_.unfitted_sites = qp_.observable().unfitted_sites();
+  fit_.unfitted_error = qp_.UnfittedError(targets, covariance_N2);
   if (tell_modulus_sensitivity_) ModulusSensitivity(targets, state);
   last_good_ = state;
   last_good_.valid = true;
   return Status::Ok();
 }
 
-/// Forces T t along the tangents T that are not fitted move the rows by G T t. The fit takes that
-/// for the forces S G' W G T t, and for t itself none: S the covariance, W the weights. Priors have
-/// no part in it, as that of a site does not couple its tangents.
-void ForceFitter::UnfittedError(const RowTargets& targets) {
-  const fem::QpMatrix& unfitted = observable_.unfitted();
-  fit_.unfitted_sites = observable_.unfitted_sites();
-  fit_.unfitted_error = -unfitted;
-  if (unfitted.cols() == 0) return;
-  const fem::QpMatrix data = Information(targets) - prior_information_;
-  const fem::QpMatrix covariance_N2 = fit_.covariance_N2;
-  fit_.unfitted_error += covariance_N2 * data * unfitted;
-}
-
-Status ForceFitter::CheckTensions(const ModelState& state) const {
+Status ForceNewton::CheckTensions(const ModelState& state) const {
   for (int c = 0; c < model_.ActuatorCount(); ++c) {
     const double tension_N = state.lambda_a_N[c];
     const robot::ActuatorTraits& limits = model_.traits(c);
@@ -522,20 +441,16 @@ Status ForceFitter::CheckTensions(const ModelState& state) const {
 
 /// Stiffer material needs larger forces for the same shape: the internal forces grow with ln E, and
 /// the fit with them by dlambda_f/dlnE = -(G' S^-1 G)^-1 G' S^-1 de/dlnE.
-void ForceFitter::ModulusSensitivity(const RowTargets& targets, const ModelState& state) {
+void ForceNewton::ModulusSensitivity(const RowTargets& targets, const ModelState& state) {
   nodal_.setZero();
   model_.elastic_body().AddForces(state.x_m, nodal_);
   nodal_ *= -1.0;
   RespondTo(nodal_, state.x_m, &response_motion_m_);
-  const Eigen::MatrixXd& G = condensation_.G();
-  fem::QpVector pull(G.cols());
-  for (Eigen::Index j = 0; j < G.cols(); ++j) {
-    pull[j] = (G.col(j).array() * targets.weight.array() * response_motion_m_.col(0).array()).sum();
-  }
-  fit_.modulus_sensitivity_N.noalias() = -fit_.covariance_N2 * pull;
+  fit_.modulus_sensitivity_N.noalias() =
+      -fit_.covariance_N2 * qp_.Projection(targets, response_motion_m_.col(0));
 }
 
-void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
+void ForceNewton::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
                             const Eigen::VectorXd& x_m, Eigen::MatrixXd* row_motions_m) {
   const fem::StiffnessMatrix& matrix = model_.linearisation().matrix();
   responses_.resize(matrix.Size(), forces_N.cols());
@@ -556,17 +471,17 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
       model_.actuator(c).AddGradient(x_m, -1.0, cable_gradient_);
       cable_motion_[c] = cable_gradient_.dot(gradient_);
     }
-    condensation_.HoldTautCables(compliance_, cable_motion_, &effector_motion_);
+    qp_.response().HoldTautCables(compliance_, cable_motion_, &effector_motion_);
     row_motions_m->col(k) = effector_motion_;
   }
 }
 
 /// By reciprocity all candidates together cost one solve for each row.
-Status ForceFitter::Screen(const RowTargets& targets,
+Status ForceNewton::Screen(const RowTargets& targets,
                            const std::vector<robot::ActuatorCommand>& cables,
                            const ModelState& state, const std::vector<FitSite>& candidates,
                            std::vector<ScreenedSite>* screened) {
-  const std::vector<FitSite> sites = sites_;
+  const std::vector<FitSite> sites = qp_.sites();
   screened->clear();
   UpdateWeight();
   if (Status status = Linearise(state, /*allow_shift=*/true); !status.ok()) return status;
@@ -578,15 +493,12 @@ Status ForceFitter::Screen(const RowTargets& targets,
     with_candidate.push_back(candidate);
     SetSites(with_candidate);
     compliance_.ObserveByReciprocity();
-    condensation_.Start(cables, state.lambda_a_N);
-    if (!SolveQp(targets, cables, extended).ok()) {
+    qp_.Start(cables, state.lambda_a_N);
+    if (!qp_.Solve(compliance_, targets, cables, extended.lambda_f_N).ok()) {
       screened->push_back({.chi_squared = std::numeric_limits<double>::infinity()});
       continue;
     }
-    const Eigen::VectorXd residual =
-        targets.value_m - condensation_.e0_m() - condensation_.G() * new_lambda_f_;
-    screened->push_back(
-        {(residual.array().square() * targets.weight.array()).sum(), new_lambda_f_.tail<3>()});
+    screened->push_back({qp_.ChiSquared(targets), qp_.lambda_f_N().tail<3>()});
   }
   SetSites(sites);
   return Status::Ok();

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "components/force_estimation/config.hpp"
-#include "components/force_estimation/fit/actuator_condensation.hpp"
 #include "components/force_estimation/fit/anderson_accelerator.hpp"
-#include "components/force_estimation/fit/observable_subspace.hpp"
+#include "components/force_estimation/fit/force_qp.hpp"
 #include "libs/core/status.hpp"
 #include "libs/fem/newton_loop.hpp"
 #include "libs/fem/static_solver.hpp"
@@ -17,14 +16,6 @@
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
-
-/// Measured values of the observed rows: coordinates of markers, or of surface points along their
-/// normals.
-struct RowTargets {
-  Eigen::VectorXd value_m;  ///< [rows]
-  Eigen::VectorXd weight;   ///< [rows] 1 / variance, 1/m^2; 0: not measured
-  int rows = 0;             ///< with a weight above 0
-};
 
 /// A configuration of the model and the forces on it.
 struct ModelState {
@@ -35,7 +26,7 @@ struct ModelState {
   Eigen::VectorXd lambda_f_N;  ///< [3k] x, y, z of each contact, robot frame
 };
 
-/// One more contact, fitted to first order (ForceFitter::Screen).
+/// One more contact, fitted to first order (ForceNewton::Screen).
 struct ScreenedSite {
   double chi_squared = 0.0;  ///< of all rows; infinite: its force cannot be told from the others'
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< robot frame
@@ -80,7 +71,7 @@ inline constexpr double kFactorWork = 8.0;
 inline constexpr double kColumnsWork = 2.0;
 
 /// Contact forces at given sites that fit the observed rows by least squares, in static
-/// equilibrium: the paper's QP (11) to (14), relinearised until it converges. Each step updates
+/// equilibrium: the paper's QP (ForceQp), relinearised until it converges. Each step updates
 /// forces, tensions and configuration together (Gauss-Newton), in the loop of fem/newton_loop.hpp.
 /// Where that diverges, a continuation step solves for the equilibrium under new forces first.
 ///
@@ -90,10 +81,10 @@ inline constexpr double kColumnsWork = 2.0;
 /// - the change of the forces in the next step, over the largest contact force, or 1 N;
 /// - a thousandth of the error of the state at which the tangent was taken, because the optimum and
 ///   its intervals depend on that tangent. This one is left out with KeepFactor.
-class ForceFitter final : private fem::NewtonProblem {
+class ForceNewton final : private fem::NewtonProblem {
  public:
   /// The observed rows are x, y and z of the robot's markers. `model` must outlive the fitter.
-  ForceFitter(robot::RobotModel& model, const Config& config);
+  ForceNewton(robot::RobotModel& model, const Config& config);
 
   /// Observes other rows; to be called before Fit.
   void SetRows(std::vector<robot::ObservationRow> rows);
@@ -106,8 +97,8 @@ class ForceFitter final : private fem::NewtonProblem {
   void SetSites(const std::vector<FitSite>& sites);
   /// Gaussian prior of lambda_f: mean zero, inverse covariance [3k x 3k], 1/N^2. SetSites removes
   /// it.
-  void SetForcePrior(const fem::QpMatrix& information) { prior_information_ = information; }
-  const fem::QpMatrix& force_prior() const { return prior_information_; }
+  void SetForcePrior(const fem::QpMatrix& information) { qp_.SetPrior(information); }
+  const fem::QpMatrix& force_prior() const { return qp_.prior(); }
   /// Largest compression of a cable with which a fit is accepted; initially 0. Near the transition
   /// between taut and slack, noise may leave a cable in neither state.
   void TolerateCablesThatPush(double most_N) { most_push_N_ = most_N; }
@@ -137,7 +128,7 @@ class ForceFitter final : private fem::NewtonProblem {
   bool has_factor() const { return factor_.known; }
   /// To be called after other code has used the model's linearisation.
   void ForgetFactor() { factor_.known = factor_.evaluated.valid = false; }
-  int SiteCount() const { return static_cast<int>(sites_.size()); }
+  int SiteCount() const { return static_cast<int>(qp_.sites().size()); }
 
   /// Moves `state`, which must be near an equilibrium, to the fit; without sites to the equilibrium
   /// under the cable inputs. The result stays valid until the next call. Where the status is
@@ -153,13 +144,11 @@ class ForceFitter final : private fem::NewtonProblem {
 
   /// Response G of the rows to lambda_f under the cable inputs, about the last fit [rows x 3k],
   /// m/N.
-  const Eigen::MatrixXd& Response() const { return condensation_.G(); }
+  const Eigen::MatrixXd& Response() const { return qp_.response().G(); }
   /// Displacements of the rows [rows x m], m, under nodal forces [3n x m], one case in each column,
   /// and the cable inputs.
   void RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N, const Eigen::VectorXd& x_m,
                  Eigen::MatrixXd* row_motions_m);
-  /// G' S^-1 G and the prior about the last fit [3k x 3k], 1/N^2.
-  fem::QpMatrix Information(const RowTargets& targets) const;
 
   /// A force at one more site, to first order about `state`, the others fitted again: one result
   /// for each of `candidates`. Not ok where the state cannot be linearised.
@@ -221,8 +210,7 @@ class ForceFitter final : private fem::NewtonProblem {
   Status Linearise(const ModelState& state, bool allow_shift);
   bool IsEvaluated(const ModelState& state) const;
   Status SolveInObservableDirections(const ModelState& state);
-  Status SolveQp(const RowTargets& targets, const std::vector<robot::ActuatorCommand>& cables,
-                 const ModelState& state);
+  Status SolveQp(const ModelState& state);
   double Error(const ModelState& state) const;
   double EquilibriumError(const ModelState& state) const;
   double CableError(const ModelState& state) const;
@@ -233,17 +221,13 @@ class ForceFitter final : private fem::NewtonProblem {
 
   Status Conclude();
   Status CheckTensions(const ModelState& state) const;
-  void UnfittedError(const RowTargets& targets);
   void ModulusSensitivity(const RowTargets& targets, const ModelState& state);
 
   robot::RobotModel& model_;
   Config config_;
   robot::Compliance compliance_;
   fem::StaticSolver static_solver_;  ///< for continuation steps
-  ActuatorCondensation condensation_;
-  std::vector<FitSite> sites_;
-  ObservableSubspace observable_;
-  fem::QpMatrix prior_information_;
+  ForceQp qp_;
   bool keep_factor_ = false;
   bool tell_modulus_sensitivity_ = true;
   int most_continuation_steps_ = 8;
@@ -258,10 +242,8 @@ class ForceFitter final : private fem::NewtonProblem {
   Frame frame_;
   Trial trial_;
   ModelState start_, last_good_;
-  fem::QpVector qp_start_;
   Eigen::VectorXd weight_N_;          ///< [3n] gravity
   Eigen::VectorXd external_force_N_;  ///< [3n]
-  Eigen::VectorXd new_lambda_f_, new_lambda_a_;
   Eigen::VectorXd nodal_, gradient_, cable_gradient_, effector_motion_, cable_motion_;
   Eigen::MatrixXd responses_;          ///< [reduced x m]
   Eigen::MatrixXd response_motion_m_;  ///< [rows x m]
