@@ -111,8 +111,8 @@ std::string ExperimentTable(const DiagnosisResult& result) {
   }
   return FormatTable(table) + Element("p",
                                       "The best is first. Expected ln BF of the pair of causes "
-                                      "that the experiment separates least "
-                                      "well; above 3 is a clear answer.");
+                                      "that the experiment separates least well; above " +
+                                          NumberText(kClearAnswer_lnBF, 2) + " is a clear answer.");
 }
 
 std::string RecordingTable(const DiagnosisResult& result) {

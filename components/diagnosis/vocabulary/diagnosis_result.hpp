@@ -120,6 +120,9 @@ struct ComparedSample {
   Eigen::Matrix3Xd after_m;   ///< the same of the extended model (or the nominal robot's fit)
 };
 
+/// Expected ln BF from which on a recording is expected to separate two hypotheses.
+inline constexpr double kClearAnswer_lnBF = 3.0;
+
 /// A recording that would separate the hypotheses.
 struct ExperimentProposal {
   std::string title;        ///< "ramp of cable north to 8 mm"

@@ -169,6 +169,23 @@ void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* detail
       {"Not identifiable from", JoinedOrNone(Names(result.indistinguishable_from, result))});
 }
 
+/// What the data leave open, and the recording that would settle it, or that none would.
+void AddNextExperiment(const DiagnosisResult& result, std::vector<VerdictDetail>* details) {
+  const ExperimentProposal& next = result.experiments.front();
+  const std::string pair = WordsFor(next.first, result) + " or " + WordsFor(next.second, result);
+  const std::string recording =
+      next.title + (next.by_hand.empty() ? "" : "; by hand: " + next.by_hand);
+  details->push_back({"Not yet certain", "whether it is " + pair});
+  if (next.expected_ln_bayes_factor >= kClearAnswer_lnBF) {
+    details->push_back({"Do next", recording});
+    return;
+  }
+  details->push_back({"No proposed recording settles it",
+                      "their effects are alike in all of them. Best: " + recording +
+                          ", expected ln BF " + NumberText(next.expected_ln_bayes_factor, 2) +
+                          ", where " + NumberText(kClearAnswer_lnBF, 2) + " is a clear answer"});
+}
+
 }  // namespace
 
 std::string Enumeration(const std::vector<std::string>& items) {
@@ -263,11 +280,7 @@ std::vector<VerdictDetail> VerdictDetails(const DiagnosisResult& result) {
   }
   if (const std::string healthy = HealthyText(result); !healthy.empty())
     details.push_back({"False accusations", Sentence(healthy)});
-  if (!result.experiments.empty() && result.verdict != Verdict::kNoFault) {
-    const ExperimentProposal& next = result.experiments.front();
-    details.push_back(
-        {"Do next", next.title + (next.by_hand.empty() ? "" : "; by hand: " + next.by_hand)});
-  }
+  if (!result.experiments.empty()) AddNextExperiment(result, &details);
   return details;
 }
 

@@ -62,7 +62,20 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   EXPECT_THAT(all, HasSubstr("Seen in: 02_ramp_north, 06_hold_north"));
   EXPECT_THAT(all, HasSubstr("Ruled out: backlash of cable north, creep of the body"));
   EXPECT_THAT(all, HasSubstr("Not identifiable from: none."));
-  EXPECT_THAT(all, HasSubstr("Do next: ramp of cable north to 12 mm"));
+  EXPECT_THAT(all, HasSubstr("Not yet certain: whether it is friction of cable north or backlash "
+                             "of cable north. Do next: ramp of cable north to 12 mm"));
+}
+
+TEST(VerdictWords, SayWhereNoRecordingWouldSettleAQuestion) {
+  DiagnosisResult result = FrictionExample();
+  result.experiments.front().expected_ln_bayes_factor = 1.24;
+  const std::string all = VerdictParagraph(result);
+  EXPECT_THAT(all, HasSubstr("No proposed recording settles it: their effects are alike in all of "
+                             "them. Best: ramp of cable north to 12 mm, twice as slowly, expected "
+                             "ln BF 1.2, where 3.0 is a clear answer."));
+  EXPECT_THAT(all, Not(HasSubstr("Do next")));
+  result.experiments.clear();
+  EXPECT_THAT(VerdictParagraph(result), Not(HasSubstr("Not yet certain")));
 }
 
 TEST(VerdictWords, SayTheValueInTheTermsOfTheFile) {
