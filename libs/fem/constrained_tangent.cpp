@@ -33,24 +33,29 @@ Eigen::VectorXd GenericVector(Eigen::Index size) {
 
 }  // namespace
 
-ConstrainedTangent::ConstrainedTangent(Linearisation& linearisation, Eigen::MatrixXd H)
+ConstrainedTangent::ConstrainedTangent(Linearisation& linearisation, Eigen::MatrixXd H,
+                                       Eigen::VectorXd compliance_m_N)
     : linearisation_(linearisation),
       H_(std::move(H)),
+      stiffness_N_m_((compliance_m_N.array() > 0.0).select(compliance_m_N.array().inverse(), 0.0)),
       moved_(H_),
       shift_N_m_(linearisation.matrix().MeanDiagonal() - linearisation.mean_diagonal_N_m()) {
   linearisation_.Solve(moved_);
   schur_ = H_.transpose() * moved_;
+  schur_.diagonal() += compliance_m_N;
 }
 
 Eigen::VectorXd ConstrainedTangent::Times(const Eigen::VectorXd& v) const {
-  return linearisation_.matrix().Times(v) - shift_N_m_ * v;
+  const Eigen::VectorXd pulls_N = stiffness_N_m_.cwiseProduct(H_.transpose() * v);
+  return linearisation_.matrix().Times(v) - shift_N_m_ * v + H_ * pulls_N;
 }
 
 Eigen::VectorXd ConstrainedTangent::MultipliersOf(const Eigen::VectorXd& residual) const {
   return linalg::SolveSymmetric(schur_, Eigen::VectorXd(moved_.transpose() * residual));
 }
 
-/// The preconditioned residual along motions that keep the constraints.
+/// The preconditioned residual along motions that keep the constraints; where these yield, by the
+/// inverse of the shifted K + H C^-1 H' (Woodbury).
 Eigen::VectorXd ConstrainedTangent::Project(const Eigen::VectorXd& residual) const {
   Eigen::MatrixXd column = residual;
   linearisation_.Solve(column);
@@ -60,7 +65,7 @@ Eigen::VectorXd ConstrainedTangent::Project(const Eigen::VectorXd& residual) con
 Status ConstrainedTangent::Solve(const Eigen::VectorXd& r, const Eigen::VectorXd& b,
                                  Eigen::VectorXd* dx, Eigen::VectorXd* dlambda) const {
   *dx = moved_ * linalg::SolveSymmetric(schur_, b);
-  Eigen::VectorXd residual = r - Times(*dx);
+  Eigen::VectorXd residual = r + H_ * stiffness_N_m_.cwiseProduct(b) - Times(*dx);
   Eigen::VectorXd projected = Project(residual);
   Eigen::VectorXd direction = projected;
   double energy = residual.dot(projected);
@@ -81,7 +86,9 @@ Status ConstrainedTangent::Solve(const Eigen::VectorXd& r, const Eigen::VectorXd
     energy = residual.dot(projected);
     direction = projected + energy / before * direction;
   }
-  *dlambda = -MultipliersOf(residual);
+  const Eigen::VectorXd held_N = -MultipliersOf(residual);
+  const Eigen::VectorXd yielding_N = stiffness_N_m_.cwiseProduct(b - H_.transpose() * *dx);
+  *dlambda = (stiffness_N_m_.array() > 0.0).select(yielding_N, held_N);
   return Status::Ok();
 }
 
@@ -94,6 +101,7 @@ std::vector<Eigen::Index> HeldConstraints(const LoadState& loads,
     if (command.mode != ConstraintCommand::Mode::kUpperBound) continue;
     if (multipliers_N[c] <= command.min_multiplier_N) continue;
     if (multipliers_N[c] >= command.max_multiplier_N) continue;
+    if (command.compliance_m_N < 0.0) return {};
     can_push = can_push || command.min_multiplier_N < 0.0;
     held.push_back(c);
   }
@@ -106,8 +114,10 @@ bool IsStableUnderConstraints(Linearisation& linearisation, const LoadState& loa
   const std::vector<Eigen::Index> held = HeldConstraints(loads, multipliers_N);
   if (held.empty()) return false;
   Eigen::MatrixXd H(linearisation.Size(), std::ssize(held));
+  Eigen::VectorXd compliance_m_N(std::ssize(held));
   Eigen::VectorXd nodal(x_m.size());
   for (std::size_t k = 0; k < held.size(); ++k) {
+    compliance_m_N[ToIndex(k)] = loads.command(held[k]).compliance_m_N;
     nodal.setZero();
     linearisation.constraints()[At(held[k])]->AddGradient(x_m, -1.0, nodal);
     linearisation.matrix().Reduce(nodal, H.col(ToIndex(k)));
@@ -115,7 +125,7 @@ bool IsStableUnderConstraints(Linearisation& linearisation, const LoadState& loa
   Eigen::VectorXd generic = Eigen::VectorXd::Zero(linearisation.Size());
   linearisation.matrix().Reduce(GenericVector(x_m.size()), generic);
   Eigen::VectorXd dx, dlambda;
-  return ConstrainedTangent(linearisation, std::move(H))
+  return ConstrainedTangent(linearisation, std::move(H), std::move(compliance_m_N))
       .Solve(generic, Eigen::VectorXd::Zero(std::ssize(held)), &dx, &dlambda)
       .ok();
 }

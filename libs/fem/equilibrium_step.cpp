@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libs/core/check.hpp"
@@ -38,13 +39,16 @@ bool StepAlongConstraints(Linearisation& linearisation, const LoadState& loads,
   const std::vector<Eigen::Index> held = HeldConstraints(loads, multipliers_N);
   if (held.empty()) return false;
   Eigen::VectorXd missing(std::ssize(held));
+  Eigen::VectorXd compliance_m_N(std::ssize(held));
   for (std::size_t k = 0; k < held.size(); ++k) {
     const ConstraintCommand& command = loads.command(held[k]);
-    if (command.compliance_m_N != 0.0) return false;
-    missing[ToIndex(k)] = Value(linearisation, held[k], x_m) - command.value;
+    compliance_m_N[ToIndex(k)] = command.compliance_m_N;
+    missing[ToIndex(k)] =
+        Value(linearisation, held[k], x_m) - command.Bound_m(multipliers_N[held[k]]);
   }
   Eigen::VectorXd dx, change;
-  const ConstrainedTangent tangent(linearisation, gradients(Eigen::all, held));
+  const ConstrainedTangent tangent(linearisation, gradients(Eigen::all, held),
+                                   std::move(compliance_m_N));
   if (!tangent.Solve(linearisation.residual_N(), missing, &dx, &change).ok()) return false;
   Eigen::VectorXd reached = multipliers_N;
   for (std::size_t k = 0; k < held.size(); ++k) {

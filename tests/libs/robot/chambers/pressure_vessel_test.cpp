@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libs/fem/constrained_tangent.hpp"
 #include "libs/robot/chamber.hpp"
 #include "tests/libs/fem/verification/static_problem.hpp"
 #include "tests/libs/robot/chambers/hollow_bodies.hpp"
@@ -160,6 +161,15 @@ class NeoHookeanSphere : public testing::Test {
     return state->multipliers_N[0] / chamber_.area_m2();
   }
 
+  /// By how much the thrust falls with each metre of the piston beyond the largest pressure, N/m.
+  double Fall_N_m(double stretch) const {
+    const double step = 1e-4;
+    const double rest_m3 = chamber_.area_m2() * std::abs(chamber_.rest_value_m());
+    const double change_Pa = Pressure_Pa(stretch + step) - Pressure_Pa(stretch - step);
+    const double change_m3 = rest_m3 * (std::pow(stretch + step, 3) - std::pow(stretch - step, 3));
+    return -change_Pa / change_m3 * chamber_.area_m2() * chamber_.area_m2();
+  }
+
   StaticProblem problem_;
   Chamber chamber_;
 };
@@ -178,6 +188,45 @@ TEST_F(NeoHookeanSphere, BlowsUpThroughItsLimitPointAsTheClosedFormSays) {
     EXPECT_NEAR(last_Pa, Pressure_Pa(stretch), 0.01 * std::abs(Pressure_Pa(stretch))) << stretch;
   }
   EXPECT_LT(last_Pa, 0.98 * largest_Pa);
+}
+
+/// A gas that yields less than the thrust falls with the volume holds the balloon; one that yields
+/// more does not: it goes on to blow the balloon up.
+TEST_F(NeoHookeanSphere, IsHeldBeyondItsLimitPointByAGasThatYieldsLittle) {
+  fem::ElasticBody body(problem_.mesh, {problem_.material},
+                        std::vector<int>(static_cast<size_t>(problem_.mesh.CellCount()), 0));
+  fem::Linearisation linearisation(body, problem_.constraints, problem_.fixed);
+  fem::StaticSolver solver(linearisation);
+  fem::StaticState state = solver.RestState();
+  for (const double stretch : {1.3, 1.7, 2.1}) PressureAt(stretch, &solver, &state);
+  ASSERT_GT(Fall_N_m(2.1), 0.0);
+  const auto yielding = [&](double share) {
+    fem::LoadState loads = state.loads;
+    loads.commands[0].compliance_m_N = share / Fall_N_m(2.1);
+    loads.commands[0].value -= loads.commands[0].compliance_m_N * state.multipliers_N[0];
+    return loads;
+  };
+  for (const double share : {0.0, 0.8, 1.2, 10.0}) {
+    ASSERT_TRUE(linearisation
+                    .Update(state.x_m, state.multipliers_N, state.loads.external_force_N,
+                            /*allow_shift=*/true)
+                    .ok());
+    ASSERT_TRUE(linearisation.shifted());
+    EXPECT_EQ(fem::IsStableUnderConstraints(linearisation, yielding(share), state.x_m,
+                                            state.multipliers_N),
+              share < 1.0)
+        << share;
+  }
+  // A little more gas of the kind that holds.
+  fem::LoadState more = yielding(0.5);
+  more.commands[0].value += 0.05 * chamber_.rest_value_m();
+  const fem::StaticResult result = solver.Solve(more, &state);
+  ASSERT_TRUE(result.status.ok()) << result.status.message();
+  const double stretch = std::cbrt(chamber_.Value(state.x_m) / chamber_.rest_value_m());
+  EXPECT_GT(stretch, 2.1);
+  const double pressure_Pa = state.multipliers_N[0] / chamber_.area_m2();
+  EXPECT_NEAR(pressure_Pa, Pressure_Pa(stretch), 0.01 * pressure_Pa);
+  EXPECT_NEAR(chamber_.Value(state.x_m), more.commands[0].Bound_m(state.multipliers_N[0]), 1e-9);
 }
 
 TEST_F(NeoHookeanSphere, HasNoStableBalanceUnderMoreThanItsLargestPressure) {
