@@ -327,9 +327,13 @@ void ContactSearch::AddUncertainty(const std::vector<Screened>& screened, const 
   const double least = std::min(screened.front().score, best.score);
   const Eigen::Vector3d force_N = best.state.lambda_f_N.tail<3>();
   const double limit = least + noise_scale * ChiSquaredQuantile(0.95, 2);
+  const auto place_m = [&](const FitSite& site) {
+    return site.patch.weights.Position(best.state.x_m);
+  };
   double radius_m = 0.5 * candidates_.fine_spacing_m();
   double weights = std::exp(-0.5 * (best.score - least) / noise_scale);
   Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
   for (const Screened& other : screened) {
     if (!std::isfinite(other.score)) break;
     if (other.score <= limit) {
@@ -338,10 +342,18 @@ void ContactSearch::AddUncertainty(const std::vector<Screened>& screened, const 
     const double weight = std::exp(-0.5 * (other.score - least) / noise_scale);
     const Eigen::Vector3d change_N = other.force_N - force_N;
     covariance_N2 += weight * change_N * change_N.transpose();
+    const Eigen::Vector3d change_m = place_m(other.site) - place_m(best.site);
+    covariance_m2 += weight * change_m * change_m.transpose();
     weights += weight;
   }
   result.location_ci95_m = std::max(result.location_ci95_m, radius_m);
   result.location_covariance_N2.push_back(covariance_N2 / weights);
+  // Between two candidates any place is as probable.
+  const Eigen::Vector3d normal = best.site.patch.normal;
+  const double between_m2 = std::pow(candidates_.fine_spacing_m(), 2) / 12.0;
+  result.location_covariance_m2.push_back(
+      covariance_m2 / weights +
+      between_m2 * (Eigen::Matrix3d::Identity() - normal * normal.transpose()));
 }
 
 }  // namespace palpate::force_estimation

@@ -35,6 +35,8 @@ class ContactSearch {
     std::vector<FitSite> fit_sites;
     /// [sites] covariance of each force from the uncertainty of its location.
     std::vector<Eigen::Matrix3d> location_covariance_N2;
+    /// [sites] of the place on the deformed surface, robot frame.
+    std::vector<Eigen::Matrix3d> location_covariance_m2;
     /// Radius of the 95 % confidence region of the location, m; at least half the distance between
     /// candidates.
     double location_ci95_m = 0.0;

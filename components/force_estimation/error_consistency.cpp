@@ -27,19 +27,19 @@ bool NormalisedError::IsWithin95() const {
   return degrees > 0 && squared <= ChiSquaredQuantile(0.95, degrees);
 }
 
-NormalisedError Normalise(const Eigen::Vector3d& error_N, const Eigen::Matrix3d& covariance_N2) {
-  NormalisedError error;
-  if (!covariance_N2.allFinite() || !error_N.allFinite()) return error;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_N2);
-  const double least_N2 = kConsistencyTuning.least_variance * eigen.eigenvalues()[2];
+NormalisedError Normalise(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+  NormalisedError normalised;
+  if (!covariance.allFinite() || !error.allFinite()) return normalised;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const double least = kConsistencyTuning.least_variance * eigen.eigenvalues()[2];
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const double variance_N2 = eigen.eigenvalues()[k];
-    if (!(variance_N2 > least_N2)) continue;
-    const double along_N = eigen.eigenvectors().col(k).dot(error_N);
-    error.squared += along_N * along_N / variance_N2;
-    ++error.degrees;
+    const double variance = eigen.eigenvalues()[k];
+    if (!(variance > least)) continue;
+    const double along = eigen.eigenvectors().col(k).dot(error);
+    normalised.squared += along * along / variance;
+    ++normalised.degrees;
   }
-  return error;
+  return normalised;
 }
 
 void ErrorConsistency::Add(const std::string& contact, const NormalisedError& error) {

@@ -9,8 +9,9 @@
 
 namespace palpate::force_estimation {
 
-/// Normalised estimation error squared (NEES) of one force: e' C^-1 e of its error e and covariance
-/// C, in the directions in which C has a variance. Chi-squared with `degrees` where C is true.
+/// Normalised estimation error squared (NEES) of one force or place: e' C^-1 e of its error e and
+/// covariance C, in the directions in which C has a variance. Chi-squared with `degrees` where C is
+/// true.
 struct NormalisedError {
   double squared = 0.0;
   int degrees = 0;  ///< rank of C, at most 3; 0: the covariance is not known
@@ -19,8 +20,9 @@ struct NormalisedError {
   bool IsWithin95() const;
 };
 
-/// `error_N`: estimated minus true force. A covariance that is not finite has no degrees.
-NormalisedError Normalise(const Eigen::Vector3d& error_N, const Eigen::Matrix3d& covariance_N2);
+/// `error`: estimated minus true value, N or m; `covariance` in the square of its unit. One that is
+/// not finite has no degrees.
+NormalisedError Normalise(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance);
 
 /// Whether covariances are true, over many forces. The errors of one contact in neighbouring frames
 /// are nearly one error (bias, model, location), so that each contact counts as one sample: the

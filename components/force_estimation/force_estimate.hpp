@@ -26,6 +26,8 @@ struct ContactForce {
   /// kTangentialUnobservable: of the component along force_N.
   double ci95_N = 0.0;
   double location_ci95_m = 0.0;  ///< 0 where the site was given
+  /// Of position_m along the surface, robot frame; zero where the site was given.
+  Eigen::Matrix3d location_covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
 /// The forces of one frame.

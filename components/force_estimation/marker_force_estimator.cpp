@@ -521,6 +521,9 @@ void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<
     contact.name = sites[s].name;
     contact.position_m = fit_sites[s].patch.weights.Position(state.x_m);
     contact.location_ci95_m = location_ci95_m;
+    if (Searches()) {
+      contact.location_covariance_m2 = search_->result().location_covariance_m2[s];
+    }
   }
 }
 

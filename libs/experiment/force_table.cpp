@@ -24,9 +24,30 @@ struct ForceTableTuning {
 };
 constexpr ForceTableTuning kForceTableTuning;
 
-/// Upper triangle, rows.
-constexpr std::array<const char*, 6> kCovariance = {"cov_xx_N2", "cov_xy_N2", "cov_xz_N2",
-                                                    "cov_yy_N2", "cov_yz_N2", "cov_zz_N2"};
+/// Columns of a covariance: `head`, the upper triangle by rows, and `unit`.
+std::vector<std::string> CovarianceColumns(const std::string& head, const std::string& unit) {
+  std::vector<std::string> names;
+  for (const char* axes : {"xx", "xy", "xz", "yy", "yz", "zz"}) {
+    names.push_back(head + axes + "_" + unit);
+  }
+  return names;
+}
+
+/// Where they are: empty, or all six.
+std::vector<std::size_t> FindCovariance(const CsvTable& table,
+                                        const std::vector<std::string>& names,
+                                        ColumnFinder* finder) {
+  std::vector<std::size_t> columns;
+  std::string all;
+  for (const std::string& name : names) {
+    if (const auto found = finder->Optional(name)) columns.push_back(*found);
+    all += (all.empty() ? "" : ", ") + name;
+  }
+  if (columns.empty() || columns.size() == names.size()) return columns;
+  throw InputError(
+      table.HeaderWhere(columns.front()),
+      "a covariance has all of the columns " + all + ", or none; here some are missing");
+}
 
 /// Where each column is in the table.
 struct ForceColumns {
@@ -43,15 +64,9 @@ struct ForceColumns {
     ci95_N = finder.Optional("ci95_N");
     location_ci95_m = finder.Optional("location_ci95_m");
     status = finder.Optional("status");
-    for (std::size_t k = 0; k < kCovariance.size(); ++k) {
-      const auto found = finder.Optional(kCovariance[k]);
-      if (found) covariance_N2.push_back(*found);
-    }
-    if (!covariance_N2.empty() && covariance_N2.size() < kCovariance.size()) {
-      throw InputError(table.HeaderWhere(covariance_N2.front()),
-                       "a covariance has all of the columns cov_xx_N2, cov_xy_N2, cov_xz_N2, "
-                       "cov_yy_N2, cov_yz_N2, cov_zz_N2, or none; here some are missing");
-    }
+    covariance_N2 = FindCovariance(table, CovarianceColumns("cov_", "N2"), &finder);
+    location_covariance_m2 =
+        FindCovariance(table, CovarianceColumns("location_cov_", "m2"), &finder);
   }
 
   bool Has(std::size_t column) const {
@@ -59,14 +74,15 @@ struct ForceColumns {
     const auto in = [column](const auto& list) {
       return std::find(list.begin(), list.end(), column) != list.end();
     };
-    return column == t_s || in(position_m) || in(force_N) || in(covariance_N2) || is(recording) ||
-           is(contact) || is(ci95_N) || is(location_ci95_m) || is(status);
+    return column == t_s || in(position_m) || in(force_N) || in(covariance_N2) ||
+           in(location_covariance_m2) || is(recording) || is(contact) || is(ci95_N) ||
+           is(location_ci95_m) || is(status);
   }
 
   std::size_t t_s;
   std::array<std::size_t, 3> position_m, force_N;
   std::optional<std::size_t> recording, contact, ci95_N, location_ci95_m, status;
-  std::vector<std::size_t> covariance_N2;  ///< empty, or six
+  std::vector<std::size_t> covariance_N2, location_covariance_m2;  ///< empty, or six
 };
 
 /// The numbers of some fields, nullopt where all are empty.
@@ -93,26 +109,27 @@ std::optional<Eigen::Vector3d> VectorAt(const CsvTable& table, std::size_t row,
 }
 
 std::optional<Eigen::Matrix3d> CovarianceAt(const CsvTable& table, std::size_t row,
-                                            const std::vector<std::size_t>& columns) {
+                                            const std::vector<std::size_t>& columns,
+                                            const std::string& unit) {
   if (columns.empty()) return std::nullopt;
   const auto numbers = NumbersAt(table, row, columns);
   if (!numbers) return std::nullopt;
-  Eigen::Matrix3d covariance_N2;
+  Eigen::Matrix3d covariance;
   std::size_t k = 0;
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = i; j < 3; ++j) {
-      covariance_N2(i, j) = covariance_N2(j, i) = (*numbers)[k++];
+      covariance(i, j) = covariance(j, i) = (*numbers)[k++];
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_N2, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d& variances_N2 = eigen.eigenvalues();
-  if (variances_N2[0] < -kForceTableTuning.rounding * std::max(0.0, variances_N2[2]) ||
-      variances_N2[2] < 0.0) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d& variances = eigen.eigenvalues();
+  if (variances[0] < -kForceTableTuning.rounding * std::max(0.0, variances[2]) ||
+      variances[2] < 0.0) {
     table.Refuse(row, columns.front(),
                  "no covariance: along some direction its variance is " +
-                     FormatNumber(variances_N2[0]) + " N2, and none may be negative");
+                     FormatNumber(variances[0]) + " " + unit + ", and none may be negative");
   }
-  return covariance_N2;
+  return covariance;
 }
 
 std::optional<double> HalfWidthAt(const CsvTable& table, std::size_t row,
@@ -138,7 +155,8 @@ TabledForce RowAt(const CsvTable& table, std::size_t row, const ForceColumns& co
   read.ci95_N = HalfWidthAt(table, row, columns.ci95_N);
   read.location_ci95_m = HalfWidthAt(table, row, columns.location_ci95_m);
   read.status = TextAt(table, row, columns.status, "ok");
-  read.covariance_N2 = CovarianceAt(table, row, columns.covariance_N2);
+  read.covariance_N2 = CovarianceAt(table, row, columns.covariance_N2, "N2");
+  read.location_covariance_m2 = CovarianceAt(table, row, columns.location_covariance_m2, "m2");
   read.where = table.Where(row, columns.t_s);
   if (read.force_N && !read.position_m) {
     table.Refuse(row, columns.position_m[0], "a force needs its place");

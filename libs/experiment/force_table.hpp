@@ -24,7 +24,8 @@ struct TabledForce {
   std::optional<double> ci95_N;            ///< half-width of the 95 % interval of |F|, >= 0
   std::optional<double> location_ci95_m;   ///< >= 0
   std::string status;                      ///< "ok" where the table has no such column
-  std::optional<Eigen::Matrix3d> covariance_N2;  ///< of force_N, symmetric, no negative variance
+  /// Of force_N and of position_m; symmetric, no negative variance.
+  std::optional<Eigen::Matrix3d> covariance_N2, location_covariance_m2;
   SourceLocation where;
 };
 
@@ -34,7 +35,7 @@ struct ForceTable {
 };
 
 /// Reads forces.csv (docs/experiment.md): the columns t_s, x_m, y_m, z_m, fx_N, fy_N, fz_N, and any
-/// of recording, contact, ci95_N, location_ci95_m, status and the six of the covariance, in any
+/// of recording, contact, ci95_N, location_ci95_m, status and the six of each covariance, in any
 /// order. Contacts without a name are 1, 2, ... in the order of the rows of one time. Throws
 /// InputError with file:line:column, also for a vector that is empty in part, and a covariance that
 /// is none.

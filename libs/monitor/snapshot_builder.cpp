@@ -130,14 +130,16 @@ void SnapshotBuilder::Add(const idl::palpate_msgs::ForceArray& message, double n
   state.age_s = message.age_s;
   state.latency_s = message.latency_s;
   for (const auto& force : dds::Elements(message.forces)) {
-    state.forces.push_back({.name = ToText(force.name),
-                            .status = ToText(force.status),
-                            .reason = ToText(force.reason),
-                            .position_m = ToVector(force.position_m),
-                            .force_N = ToVector(force.force_n),
-                            .ci95_N = force.ci95_n,
-                            .covariance_N2 = Eigen::Matrix3d::Map(force.covariance_n2),
-                            .location_ci95_m = force.location_ci95_m});
+    state.forces.push_back(
+        {.name = ToText(force.name),
+         .status = ToText(force.status),
+         .reason = ToText(force.reason),
+         .position_m = ToVector(force.position_m),
+         .force_N = ToVector(force.force_n),
+         .ci95_N = force.ci95_n,
+         .covariance_N2 = Eigen::Matrix3d::Map(force.covariance_n2),
+         .location_ci95_m = force.location_ci95_m,
+         .location_covariance_m2 = Eigen::Matrix3d::Map(force.location_covariance_m2)});
   }
 }
 

@@ -52,6 +52,7 @@ Json ToJson(const ForceState& force) {
           {"covariance_robot_N2", Numbers(force.covariance_N2)},
           {"position_robot_m", Numbers(force.position_m)},
           {"location_ci95_m", Number(force.location_ci95_m)},
+          {"location_covariance_robot_m2", Numbers(force.location_covariance_m2)},
           {"status", force.status},
           {"reason", force.reason}};
 }

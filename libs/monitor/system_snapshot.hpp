@@ -61,6 +61,7 @@ struct ForceState {
   double ci95_N = 0.0;         ///< half-width of the 95 % interval of |F|
   Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();  ///< of force_N, robot frame
   double location_ci95_m = 0.0;
+  Eigen::Matrix3d location_covariance_m2 = Eigen::Matrix3d::Zero();  ///< of position_m, robot frame
 };
 
 /// The last message of /forces.

@@ -35,7 +35,10 @@ void BindContact(py::module_& module) {
           "covariance_N2",
           [](const ContactForce& one) { return CopyOfPoints(one.covariance_N2.transpose()); })
       .def_readonly("ci95_N", &ContactForce::ci95_N)
-      .def_readonly("location_ci95_m", &ContactForce::location_ci95_m);
+      .def_readonly("location_ci95_m", &ContactForce::location_ci95_m)
+      .def_property_readonly("location_covariance_m2", [](const ContactForce& one) {
+        return CopyOfPoints(one.location_covariance_m2.transpose());
+      });
 }
 
 using BoundEstimate = py::class_<Estimate, EstimatePtr>;

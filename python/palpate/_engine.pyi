@@ -320,6 +320,8 @@ class ContactForce:
     def ci95_N(self) -> float: ...  # half-width of the 95 % interval of its size
     @property
     def location_ci95_m(self) -> float: ...  # 0: the location was given
+    @property
+    def location_covariance_m2(self) -> Floats: ...  # [3, 3] along the surface
 
 class ForceEstimate:
     """The forces of one frame."""

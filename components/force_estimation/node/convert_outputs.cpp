@@ -61,6 +61,7 @@ dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(
     Eigen::Matrix3d::Map(force.covariance_n2) =
         known ? contact.covariance_N2 : Eigen::Matrix3d::Constant(kUnknown.x());
     force.location_ci95_m = contact.location_ci95_m;
+    Eigen::Matrix3d::Map(force.location_covariance_m2) = contact.location_covariance_m2;
     dds::SetText(force.status, ToString(contact.status.code()));
     dds::SetText(force.reason, contact.status.message());
   }

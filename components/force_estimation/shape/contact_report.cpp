@@ -41,6 +41,17 @@ Eigen::Matrix3d WholeCovariance(const ShapeFitter& fit, std::size_t site) {
   return CovarianceOf(fit, site);
 }
 
+/// Along the two tangents of the undeformed surface.
+Eigen::Matrix2d LocationCovariance_m2(const ShapeFitter& fit, std::size_t site, double inflation) {
+  const ShapeSite& followed = fit.sites()[site];
+  if (followed.hidden) {
+    const Eigen::Matrix<double, 3, 2> tangents = Tangents(followed.patch.normal);
+    return tangents.transpose() * followed.place_covariance_m2 * tangents;
+  }
+  if (site < fit.located().size()) return inflation * fit.located()[site].location_covariance_m2;
+  return followed.seen_sigma_m * followed.seen_sigma_m * Eigen::Matrix2d::Identity();
+}
+
 /// Of covariances, where the fit leaves more than they say.
 double InflationOf(const ShapeFitter& fit) {
   const int freedom = DegreesOfFreedom(fit);
@@ -150,7 +161,6 @@ Status ContactReport::StatusOf(const ShapeFitter& fit, std::size_t site) const {
 ContactForce ContactReport::ContactAt(const ShapeFitter& fit, std::size_t site,
                                       double inflation) const {
   const ShapeSite& followed = fit.sites()[site];
-  const bool located = !followed.hidden && site < fit.located().size();
   ContactForce contact;
   contact.name = followed.name;
   contact.status = StatusOf(fit, site);
@@ -165,12 +175,13 @@ ContactForce ContactReport::ContactAt(const ShapeFitter& fit, std::size_t site,
   contact.ci95_N = HalfWidth95_N(contact.force_N, contact.covariance_N2);
   const bool wide = contact.ci95_N > tuning_.uncertain_share * contact.force_N.norm();
   if (wide && !followed.hidden) contact.status = Status(StatusCode::kUncertain, {});
-  const double seen_m2 = followed.seen_sigma_m * followed.seen_sigma_m;  // in both directions
-  const double place_variance =
-      located ? inflation * fit.located()[site].location_covariance_m2.trace() : 2.0 * seen_m2;
+  const Eigen::Matrix2d along_m2 = LocationCovariance_m2(fit, site, inflation);
+  const Eigen::Matrix<double, 3, 2> tangents =
+      fit.SurfaceGradientAt(site) * Tangents(followed.patch.normal);
+  contact.location_covariance_m2 = tangents * along_m2 * tangents.transpose();
   contact.location_ci95_m = followed.hidden
                                 ? followed.place_ci95_m
-                                : std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * place_variance);
+                                : std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * along_m2.trace());
   return contact;
 }
 

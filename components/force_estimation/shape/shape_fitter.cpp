@@ -19,11 +19,27 @@ Config FitConfig(Config config, const ShapeConfig& shape) {
   return config;
 }
 
+/// Two edges of a triangle, m.
+using Edges = Eigen::Matrix<double, 3, 2>;
+
+/// `nodes_m` [3 x n].
+Edges EdgesOf(const Eigen::Vector3i& triangle, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes_m) {
+  Edges edges_m;
+  edges_m << nodes_m.col(triangle[1]) - nodes_m.col(triangle[0]),
+      nodes_m.col(triangle[2]) - nodes_m.col(triangle[0]);
+  return edges_m;
+}
+
+Eigen::Map<const Eigen::Matrix3Xd> NodesOf(const Eigen::VectorXd& x_m) {
+  return {x_m.data(), 3, x_m.size() / 3};
+}
+
 }  // namespace
 
 ShapeFitter::ShapeFitter(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
                          const ShapeFitterTuning& tuning)
-    : shape_(shape),
+    : model_(model),
+      shape_(shape),
       tuning_(tuning),
       features_(model.body()),
       matching_(features_, shape, tuning.matching),
@@ -125,13 +141,17 @@ double ShapeFitter::TangentialSigma_N(std::size_t site) const {
 Eigen::Vector3d ShapeFitter::NormalAt(std::size_t site) const {
   Eigen::Vector3d area_m2 = Eigen::Vector3d::Zero();
   for (const int triangle : sites()[site].triangles) {
-    Eigen::Vector3d corners[3];
-    for (int i = 0; i < 3; ++i) {
-      corners[i] = state_.x_m.segment<3>(3 * features_.triangles()(i, triangle));
-    }
-    area_m2 += (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const Edges edges_m = EdgesOf(features_.triangles().col(triangle), NodesOf(state_.x_m));
+    area_m2 += edges_m.col(0).cross(edges_m.col(1));
   }
   return area_m2.normalized();
+}
+
+Eigen::Matrix3d ShapeFitter::SurfaceGradientAt(std::size_t site) const {
+  const Eigen::Vector3i triangle = features_.triangles().col(sites()[site].centre.triangle);
+  const Edges rest_m = EdgesOf(triangle, model_.body().mesh.nodes_m);
+  const Eigen::Matrix2d metric_m2 = rest_m.transpose() * rest_m;
+  return EdgesOf(triangle, NodesOf(state_.x_m)) * metric_m2.inverse() * rest_m.transpose();
 }
 
 bool ShapeFitter::FlipAdhesiveContacts() {

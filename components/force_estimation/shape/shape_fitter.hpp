@@ -163,6 +163,9 @@ class ShapeFitter {
   const ForceNewton& fitter() const { return fitter_; }
   const ModelState& state() const { return state_; }
   const std::vector<LocatedForce>& located() const { return located_; }
+  /// Motion of a site along the present surface for one along the undeformed surface [3 x 3],
+  /// robot frame.
+  Eigen::Matrix3d SurfaceGradientAt(std::size_t site) const;
   /// Mean square of residual over expected error, of the last fit; 1 where it fits.
   double Misfit() const;
   /// Of the model, since construction.
@@ -198,6 +201,7 @@ class ShapeFitter {
   /// The longest step that was made, m.
   double MoveSites();
 
+  const robot::RobotModel& model_;
   ShapeConfig shape_;
   ShapeFitterTuning tuning_;
   correspondence::SurfaceFeatures features_;

@@ -115,6 +115,12 @@ nlohmann::ordered_json ToJson(const ComparisonSummary& summary) {
   add("location_error_m_p95", score.p95_location_error_m);
   add("coverage_of_ci95", score.coverage);
   add("coverage_of_location_ci95", score.location_coverage);
+  const force_estimation::ErrorConsistency& location = score.location_consistency;
+  if (location.forces() > 0) {
+    json["location_nees_per_degree"] = location.NeesPerDegree();
+    json["location_nees_per_degree_expected"] = {location.LowestExpected(),
+                                                 location.HighestExpected()};
+  }
   const force_estimation::ErrorConsistency& consistency = score.consistency;
   if (consistency.forces() == 0) return json;
   json["nees_per_degree"] = consistency.NeesPerDegree();

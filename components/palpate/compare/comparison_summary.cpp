@@ -63,6 +63,18 @@ force_estimation::ErrorConsistency ConsistencyOf(const std::vector<ComparedForce
   return consistency;
 }
 
+/// Across the surface a place has no variance, and no error either.
+force_estimation::ErrorConsistency LocationConsistencyOf(const std::vector<ComparedForce>& forces) {
+  force_estimation::ErrorConsistency consistency;
+  for (const ComparedForce& force : forces) {
+    consistency.Add(
+        force.recording + "/" + force.truth->name,
+        force_estimation::Normalise(force.estimate->position_m - force.truth->position_m,
+                                    force.estimate->location_covariance_m2));
+  }
+  return consistency;
+}
+
 ForceScore ScoreOf(const std::vector<ComparedForce>& forces) {
   Errors errors;
   for (const ComparedForce& force : forces) Add(force, &errors);
@@ -80,7 +92,8 @@ ForceScore ScoreOf(const std::vector<ComparedForce>& forces) {
           .mean_direction_error_rad = Mean(errors.angles_rad),
           .coverage = Mean(errors.inside),
           .location_coverage = Mean(errors.inside_location),
-          .consistency = ConsistencyOf(forces)};
+          .consistency = ConsistencyOf(forces),
+          .location_consistency = LocationConsistencyOf(forces)};
 }
 
 std::string ScoreText(const std::string& name, const ForceScore& score) {

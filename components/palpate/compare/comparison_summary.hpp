@@ -28,7 +28,8 @@ struct ForceScore {
   double mean_direction_error_rad = 0.0;  ///< of those whose direction was observable
   double coverage = 0.0;                  ///< share whose true magnitude lies in the 95 % interval
   double location_coverage = 0.0;         ///< share whose true location lies in its 95 % interval
-  force_estimation::ErrorConsistency consistency = {};  ///< of those that have a covariance
+  /// Of the forces, and of the places, that have a covariance.
+  force_estimation::ErrorConsistency consistency = {}, location_consistency = {};
 };
 
 /// Estimates against truth over a whole run.

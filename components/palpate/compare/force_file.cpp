@@ -36,6 +36,7 @@ ContactForce Contact(const std::string& name, const Eigen::Vector3d& position_m,
   contact.position_m = position_m;
   contact.force_N = force_N;
   contact.covariance_N2.setConstant(kNotInFile);
+  contact.location_covariance_m2.setConstant(kNotInFile);
   contact.ci95_N = contact.location_ci95_m = kNotInFile;
   return contact;
 }
@@ -63,6 +64,7 @@ ContactForce ContactOf(const experiment::TabledForce& row) {
   contact.status = Status(row.force_N ? code : StatusCode::kUnobservable, {});
   contact.location_ci95_m = row.location_ci95_m.value_or(kNotInFile);
   if (row.covariance_N2) contact.covariance_N2 = *row.covariance_N2;
+  if (row.location_covariance_m2) contact.location_covariance_m2 = *row.location_covariance_m2;
   if (row.ci95_N) {
     contact.ci95_N = *row.ci95_N;
   } else if (row.covariance_N2 && row.force_N) {

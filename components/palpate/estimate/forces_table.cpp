@@ -14,6 +14,17 @@ std::string Field(const std::string& name) {
   return name.find(',') == std::string::npos ? name : "\"" + name + "\"";
 }
 
+/// The upper triangle by rows, each number after a comma; empty where it is not `known`.
+std::string CovarianceFields(const Eigen::Matrix3d& covariance, bool known) {
+  std::string text;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = row; column < 3; ++column) {
+      text += "," + (known ? FormatNumber(covariance(row, column)) : std::string());
+    }
+  }
+  return text;
+}
+
 std::string ContactFields(const force_estimation::ContactForce& contact) {
   std::string text = Field(contact.name);
   for (const double value : contact.position_m) {
@@ -26,12 +37,8 @@ std::string ContactFields(const force_estimation::ContactForce& contact) {
   text += "," + (known ? FormatNumber(contact.ci95_N) : std::string());
   text += "," + FormatNumber(contact.location_ci95_m) + "," +
           std::string(ToString(contact.status.code()));
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = row; column < 3; ++column) {
-      text += "," + (known ? FormatNumber(contact.covariance_N2(row, column)) : std::string());
-    }
-  }
-  return text;
+  return text + CovarianceFields(contact.covariance_N2, known) +
+         CovarianceFields(contact.location_covariance_m2, true);
 }
 
 }  // namespace
@@ -41,7 +48,7 @@ void ForcesTable::Add(const std::string& recording,
   empty_ = false;
   const std::string head = Field(recording) + "," + FormatNumber(estimate.t_s) + ",";
   if (!estimate.status.ok() || estimate.contacts.empty()) {
-    text_ += head + ",,,,,,,,," + std::string(ToString(estimate.status.code())) + ",,,,,,\n";
+    text_ += head + ",,,,,,,,," + std::string(ToString(estimate.status.code())) + ",,,,,,,,,,,,\n";
     return;
   }
   for (const force_estimation::ContactForce& contact : estimate.contacts) {

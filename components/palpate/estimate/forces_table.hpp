@@ -26,7 +26,9 @@ class ForcesTable {
   bool empty_ = true;
   std::string text_ =
       "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status,"
-      "cov_xx_N2,cov_xy_N2,cov_xz_N2,cov_yy_N2,cov_yz_N2,cov_zz_N2\n";
+      "cov_xx_N2,cov_xy_N2,cov_xz_N2,cov_yy_N2,cov_yz_N2,cov_zz_N2,"
+      "location_cov_xx_m2,location_cov_xy_m2,location_cov_xz_m2,"
+      "location_cov_yy_m2,location_cov_yz_m2,location_cov_zz_m2\n";
 };
 
 }  // namespace palpate::command

@@ -21,6 +21,8 @@ ShownForce ForceOf(const experiment::TabledForce& row) {
           .covariance_N2 = row.covariance_N2.value_or(Eigen::Matrix3d::Constant(kUnknown)),
           .ci95_N = row.ci95_N.value_or(0.0),
           .location_ci95_m = row.location_ci95_m.value_or(0.0),
+          .location_covariance_m2 =
+              row.location_covariance_m2.value_or(Eigen::Matrix3d::Constant(kUnknown)),
           .status = row.status};
 }
 

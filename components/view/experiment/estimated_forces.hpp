@@ -21,6 +21,7 @@ struct ShownForce {
   Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();
   double ci95_N = 0.0;
   double location_ci95_m = 0.0;
+  Eigen::Matrix3d location_covariance_m2 = Eigen::Matrix3d::Zero();  ///< as covariance_N2
   std::string status = "ok";
   std::string reason = {};  ///< for a person; "known load" where it was declared
 };

@@ -40,6 +40,7 @@ dds::Message<idl::palpate_msgs::ForceArray> ForcesOf(const std::vector<ShownForc
     Eigen::Matrix3d::Map(to.covariance_n2) = from.covariance_N2;
     to.ci95_n = from.ci95_N;
     to.location_ci95_m = from.location_ci95_m;
+    Eigen::Matrix3d::Map(to.location_covariance_m2) = from.location_covariance_m2;
     dds::SetText(to.status, from.status);
     dds::SetText(to.reason, from.reason);
   }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -74,6 +75,10 @@ TEST(ContactSearch, FindsAContactBetweenFeaturePointsWithinItsInterval) {
          patch.weights.Position(truth.x_m))
             .norm();
     EXPECT_LE(error_m, std::max(contact.location_ci95_m, nearest_m + 1e-3)) << place.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(contact.location_covariance_m2);
+    EXPECT_GE(eigen.eigenvalues()[0], -1e-12);
+    EXPECT_GT(eigen.eigenvalues()[2], 1e-8);
+    EXPECT_LT(std::sqrt(eigen.eigenvalues()[2]), contact.location_ci95_m);
   }
 }
 

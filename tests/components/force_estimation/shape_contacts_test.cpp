@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -138,6 +139,26 @@ TEST_F(Contacts, WhosePlaceWasNotFittedAreAsUncertainAsTheyWereSeen) {
   const double fitted_m = report_.Contacts(fit_).at(0).location_ci95_m;
   EXPECT_GT(fitted_m, 0.0);
   EXPECT_LT(fitted_m, seen_m);
+}
+
+/// Along the present surface: none along its normal, and of the size that the interval has, as the
+/// body hardly strains.
+TEST_F(Contacts, HaveTheCovarianceOfTheirPlaceAlongTheSurface) {
+  const fem::StaticState pushed = Solve(kForce_N);
+  for (int k = 0; k < 2; ++k) {
+    Fit(SeenFrameOf(pushed));
+    report_.Judge(t_s_, false, &fit_);
+  }
+  ASSERT_TRUE(fit_.Locate(SeenFrameOf(pushed), bias_).ok());
+  const ContactForce contact = report_.Contacts(fit_).at(0);
+  const Eigen::Matrix3d& covariance_m2 = contact.location_covariance_m2;
+  EXPECT_LT((covariance_m2 - covariance_m2.transpose()).norm(), 1e-12 * covariance_m2.norm());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_m2);
+  EXPECT_LT(eigen.eigenvalues()[0], 1e-6 * eigen.eigenvalues()[1]);
+  EXPECT_GT(std::abs(eigen.eigenvectors().col(0).dot(fit_.sites()[0].patch.normal)), 0.9);
+  const double by_covariance_m =
+      std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * covariance_m2.trace());
+  EXPECT_NEAR(by_covariance_m, contact.location_ci95_m, 0.1 * contact.location_ci95_m);
 }
 
 /// No shape tells of a push on the soles, which are fixed. What went there from where it pushed is

@@ -73,10 +73,30 @@ TEST(BeamVerbs, FindTheStiffnessAndThenTheHungWeight) {
   options.out = folder / "forces.csv";
   ASSERT_EQ(Estimate(options), 0);
   const auto forces = experiment::CsvTable::Read(options.out);
-  EXPECT_EQ(forces.header(), (std::vector<std::string>{
-                                 "recording", "t_s", "contact", "x_m", "y_m", "z_m", "fx_N", "fy_N",
-                                 "fz_N", "ci95_N", "location_ci95_m", "status", "cov_xx_N2",
-                                 "cov_xy_N2", "cov_xz_N2", "cov_yy_N2", "cov_yz_N2", "cov_zz_N2"}));
+  EXPECT_EQ(forces.header(), (std::vector<std::string>{"recording",
+                                                       "t_s",
+                                                       "contact",
+                                                       "x_m",
+                                                       "y_m",
+                                                       "z_m",
+                                                       "fx_N",
+                                                       "fy_N",
+                                                       "fz_N",
+                                                       "ci95_N",
+                                                       "location_ci95_m",
+                                                       "status",
+                                                       "cov_xx_N2",
+                                                       "cov_xy_N2",
+                                                       "cov_xz_N2",
+                                                       "cov_yy_N2",
+                                                       "cov_yz_N2",
+                                                       "cov_zz_N2",
+                                                       "location_cov_xx_m2",
+                                                       "location_cov_xy_m2",
+                                                       "location_cov_xz_m2",
+                                                       "location_cov_yy_m2",
+                                                       "location_cov_yz_m2",
+                                                       "location_cov_zz_m2"}));
   ASSERT_EQ(forces.rows(), 60U);
   EXPECT_EQ(forces.Text(0, 11), "no_calibration");
   EXPECT_EQ(forces.Text(0, 2), "");

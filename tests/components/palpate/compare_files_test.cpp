@@ -240,6 +240,26 @@ TEST_F(CompareFiles, DrawnErrorsAreConsistentAndThoseOfAnotherCovarianceAreNot) 
   EXPECT_GT(halved.at("nees_per_degree"), halved.at("nees_per_degree_expected").at(1));
 }
 
+/// Places off by (0, 3) and (4, 0) mm, one standard deviation each; across the surface, z, none.
+TEST_F(CompareFiles, PlacesAreNormalisedAlongTheSurface) {
+  const auto row = [](const char* time, const char* place_m) {
+    return "," + std::string(time) + ",ball," + place_m +
+           ",0,0,0,-1,0.1,0.01,ok,0.01,0,0,0.01,0,0.01,1.6e-5,0,0,9e-6,0,0\n";
+  };
+  const std::string header =
+      std::string(kEstimateHeader).substr(0, std::string(kEstimateHeader).size() - 1) +
+      ",location_cov_xx_m2,location_cov_xy_m2,location_cov_xz_m2,location_cov_yy_m2,"
+      "location_cov_yz_m2,location_cov_zz_m2\n";
+  CompareOptions options;
+  options.estimated =
+      folder_.Write("forces.csv", header + row("1", "0.1,0.003") + row("1.1", "0.104,0"));
+  PushTruth();
+  options.truth = folder_ / "truth.csv";
+  options.json = true;
+  const auto all = nlohmann::json::parse(VerbOutput(options)).at("all");
+  EXPECT_NEAR(all.at("location_nees_per_degree").get<double>(), 0.5, 1e-9);
+}
+
 TEST_F(CompareFiles, TheVerbRefusesOptionsBelowZero) {
   CompareOptions options;
   options.estimated = options.truth =

@@ -55,6 +55,19 @@ TEST(ForceTable, HasTheRowsOfEstimate) {
   EXPECT_FALSE(table.rows[2].covariance_N2);
 }
 
+TEST(ForceTable, HasTheCovarianceOfThePlace) {
+  const std::string columns =
+      "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,location_cov_xx_m2,location_cov_xy_m2,location_cov_xz_m2,"
+      "location_cov_yy_m2,location_cov_yz_m2,location_cov_zz_m2\n";
+  const ForceTable table = ParseForces(columns + "0,0,0,0,0,0,-1,4e-6,1e-6,0,9e-6,0,0\n");
+  EXPECT_THAT(table.unused, IsEmpty());
+  Eigen::Matrix3d covariance_m2;
+  covariance_m2 << 4e-6, 1e-6, 0.0, 1e-6, 9e-6, 0.0, 0.0, 0.0, 0.0;
+  EXPECT_EQ(table.rows.at(0).location_covariance_m2, covariance_m2);
+  EXPECT_THAT(ForcesRefusal(columns + "0,0,0,0,0,0,-1,4e-6,1e-5,0,9e-6,0,0\n"),
+              AllOf(HasSubstr("no covariance"), HasSubstr(" m2")));
+}
+
 TEST(ForceTable, NeedsNoMoreThanTimesPlacesAndForces) {
   const ForceTable table = ParseForces(
       "sensor,fx_N,fy_N,fz_N,x_m,y_m,z_m,t_s\n"

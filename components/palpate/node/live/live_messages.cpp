@@ -43,6 +43,7 @@ force_estimation::ForceEstimate ToEstimate(const idl::palpate_msgs::ForceArray& 
     contact.covariance_N2 = Eigen::Matrix3d::Map(force.covariance_n2);
     contact.ci95_N = force.ci95_n;
     contact.location_ci95_m = force.location_ci95_m;
+    contact.location_covariance_m2 = Eigen::Matrix3d::Map(force.location_covariance_m2);
     estimate.contacts.push_back(contact);
   }
   return estimate;

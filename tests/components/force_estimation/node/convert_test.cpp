@@ -91,6 +91,7 @@ TEST(EstimationConvert, ForcesKeepTheirNumbersAndTheFrameTheyAnswer) {
   contact.force_N = {0.0, 0.0, -2.0};
   contact.covariance_N2 << 1, 2, 3, 2, 4, 5, 3, 5, 6;
   contact.ci95_N = 0.25;
+  contact.location_covariance_m2 << 1e-6, 0, 2e-6, 0, 3e-6, 0, 2e-6, 0, 5e-6;
   const auto forces = ToForceArray({1'500'000'000, 12, "rec", {}}, Status::Ok(), {contact});
   EXPECT_EQ(forces->marker_counter, 12u);
   EXPECT_EQ(dds::Text(forces->recording), "rec");
@@ -102,6 +103,8 @@ TEST(EstimationConvert, ForcesKeepTheirNumbersAndTheFrameTheyAnswer) {
   EXPECT_EQ(forces->forces._buffer[0].ci95_n, 0.25);
   EXPECT_THAT(forces->forces._buffer[0].covariance_n2,
               testing::ElementsAre(1, 2, 3, 2, 4, 5, 3, 5, 6));
+  EXPECT_THAT(forces->forces._buffer[0].location_covariance_m2,
+              testing::ElementsAre(1e-6, 0, 2e-6, 0, 3e-6, 0, 2e-6, 0, 5e-6));
   EXPECT_EQ(dds::Text(forces->forces._buffer[0].status), "tangential_unobservable");
   EXPECT_EQ(dds::Text(forces->forces._buffer[0].reason), "seen from one side");
   // r x F about the origin: (0.1, 0, 0) x (0, 0, -2) = (0, 0.2, 0).

@@ -70,6 +70,7 @@ dds::Message<idl::palpate_msgs::ForceArray> Forces(std::uint64_t counter, double
   force.ci95_n = std::isnan(force_N) ? kNaN : 0.04;
   force.covariance_n2[8] = std::isnan(force_N) ? kNaN : 0.0004;
   force.location_ci95_m = 0.003;
+  force.location_covariance_m2[4] = 2e-6;
   return message;
 }
 
@@ -107,6 +108,7 @@ TEST(Snapshot, ForcesHavePlaceSizeIntervalRateAndAge) {
   EXPECT_NEAR(force.at("position_robot_m").at(0), 0.012, 1e-12);
   EXPECT_EQ(force.at("ci95_N"), 0.04);
   EXPECT_EQ(force.at("covariance_robot_N2"), Json({{0, 0, 0}, {0, 0, 0}, {0, 0, 0.0004}}));
+  EXPECT_EQ(force.at("location_covariance_robot_m2").at(1).at(1), 2e-6);
 }
 
 TEST(Snapshot, AForceThatIsNotKnownIsNoNumber) {
