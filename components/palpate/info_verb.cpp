@@ -84,6 +84,19 @@ void DescribeChambers(const robot::RobotBody& body, Findings* found) {
   }
 }
 
+void DescribeFibres(const robot::RobotBody& body, Findings* found) {
+  found->json["fibres"] = Json::array();
+  for (const robot::BodyFibre& fibre : body.fibres) {
+    found->json["fibres"].push_back({{"name", fibre.name},
+                                     {"length_m", fibre.length_m},
+                                     {"axial_stiffness_N", fibre.embedded.axial_stiffness_N},
+                                     {"pieces", fibre.embedded.points.size()}});
+    found->text +=
+        fmt::format("fibre {}: {:.4g} m long in {} pieces, axial stiffness {:.4g} N\n", fibre.name,
+                    fibre.length_m, fibre.embedded.points.size(), fibre.embedded.axial_stiffness_N);
+  }
+}
+
 Findings DescribeRobot(const InfoOptions& options) {
   const auto description = robot::ReadRobotFile(FindRobotFile(options.target), app::LoadYaml);
   const robot::RobotBody body = robot::BuildRobotBody(description);
@@ -108,6 +121,7 @@ Findings DescribeRobot(const InfoOptions& options) {
                               cable.eyelets.size(), cable.max_tension_N);
   }
   DescribeChambers(body, &found);
+  DescribeFibres(body, &found);
   for (const robot::BodyMarker& marker : body.markers) {
     found.json["markers"].push_back(marker.name);
     found.text += fmt::format("marker {}: {:.2f} mm off the body\n", marker.name,

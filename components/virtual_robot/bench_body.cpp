@@ -170,6 +170,11 @@ void Refine(const robot::RobotDescription& robot, int times, robot::RobotBody* b
   for (robot::BodyChamber& chamber : body->chambers) {
     chamber.wall = FinerWall(chamber.wall, body->mesh, locator);
   }
+  for (robot::BodyFibre& fibre : body->fibres) {
+    fem::EmbeddedFibre finer{.points = {}, .axial_stiffness_N = fibre.embedded.axial_stiffness_N};
+    for (const Eigen::Matrix3Xd& path_m : fibre.paths_m) fem::AddPolyline(locator, path_m, &finer);
+    fibre.embedded = std::move(finer);
+  }
   body->boundary = locator.boundary();
   body->mesh = std::move(mesh);
 }
@@ -226,6 +231,7 @@ BenchBody MakeBenchBody(const robot::RobotDescription& robot, const scenario::Bo
   body.gravity_m_s2 = made.gravity_m_s2;
   body.cables = std::move(made.cables);
   body.chambers = std::move(made.chambers);
+  body.fibres = std::move(made.fibres);
   body.markers = std::move(made.markers);
   ApplyMaterialEffects(effects, &body);
   for (fem::Material& material : body.materials) {

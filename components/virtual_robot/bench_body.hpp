@@ -40,6 +40,7 @@ struct BenchBody {
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
   std::vector<robot::BodyCable> cables;
   std::vector<robot::BodyChamber> chambers;
+  std::vector<robot::BodyFibre> fibres;
   std::vector<robot::BodyMarker> markers;
 
   Eigen::VectorXd rest_m() const { return mesh.nodes_m.reshaped(); }  ///< [3n]

@@ -21,7 +21,8 @@ namespace {
 Eigen::Matrix3Xd LowestMode(const BenchBody& body) {
   constexpr int kIterations = 30;
   const Eigen::Vector3d kPush(1.0, 0.5, 0.2);
-  fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell);
+  fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell,
+                           robot::EmbeddedFibres(body.fibres));
   fem::Linearisation linearisation(elastic, {}, body.fixed);
   fem::NodeMatrix mass(body.mesh);
   fem::AddConsistentMass(

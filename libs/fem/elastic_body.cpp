@@ -48,11 +48,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 ElasticBody::ElasticBody(const TetMesh& mesh, std::vector<Material> materials,
-                         const std::vector<int>& material_of_cell)
+                         const std::vector<int>& material_of_cell,
+                         const std::vector<EmbeddedFibre>& fibres)
     : mesh_(mesh),
       rest_m_(mesh.nodes_m.reshaped()),
       materials_(std::move(materials)),
-      material_of_cell_{material_of_cell} {
+      material_of_cell_{material_of_cell},
+      fibres_(fibres, rest_m_) {
   PALPATE_CHECK(material_of_cell.size() == At(mesh.CellCount()), material_of_cell.size());
   Share(NaturalRowOrder(mesh.NodeCount()), nullptr, 1);
 }
@@ -61,6 +63,7 @@ void ElasticBody::BindTo(const StiffnessMatrix& stiffness, std::shared_ptr<Threa
   PALPATE_CHECK(stiffness.NodeCount() == NodeCount(), stiffness.NodeCount(), NodeCount());
   team_ = std::move(team);
   Share(EliminationRowOrder(mesh_.cells, stiffness), &stiffness, team_ ? team_->Size() : 1);
+  fibres_.BindTo(stiffness);
 }
 
 void ElasticBody::Share(RowOrder order, const StiffnessMatrix* stiffness, int threads) {
@@ -176,16 +179,25 @@ double ElasticBody::AddShare(const AssemblyShare& share, const double* x_m,
   return min_J;
 }
 
-double ElasticBody::AddForces(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N) const {
+double ElasticBody::AddForcesOfCells(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N) const {
   return OnEveryShare(
       [&](const AssemblyShare& share) { return AddShare(share, x_m.data(), force_N, nullptr); });
+}
+
+double ElasticBody::AddForces(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N) const {
+  const double min_J = AddForcesOfCells(x_m, force_N);
+  fibres_.AddForces(x_m, force_N);
+  return min_J;
 }
 
 double ElasticBody::AddForcesAndSetTangent(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N,
                                            StiffnessMatrix& stiffness) const {
   PALPATE_CHECK(bound_);
-  return OnEveryShare(
+  const double min_J = OnEveryShare(
       [&](const AssemblyShare& share) { return AddShare(share, x_m.data(), force_N, &stiffness); });
+  fibres_.AddForces(x_m, force_N);
+  fibres_.AddTangent(x_m, stiffness);
+  return min_J;
 }
 
 void ElasticBody::AddForcesOfMaterial(int material, const Eigen::VectorXd& x_m,
@@ -249,7 +261,7 @@ double ElasticBody::EnergiesOfShare(const AssemblyShare& share, const double* x_
 double ElasticBody::Energy(const Eigen::VectorXd& x_m, double* min_J) const {
   *min_J = OnEveryShare(
       [&](const AssemblyShare& share) { return EnergiesOfShare(share, x_m.data(), nullptr); });
-  double energy = 0.0;
+  double energy = fibres_.Energy(x_m);
   for (const Eigen::VectorXd& of_blocks : block_energy_J_) energy += of_blocks.sum();
   return energy;
 }

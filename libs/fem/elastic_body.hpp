@@ -10,13 +10,15 @@
 #include "libs/core/thread_team.hpp"
 #include "libs/fem/assembly_shares.hpp"
 #include "libs/fem/cell_blocks.hpp"
+#include "libs/fem/fibre.hpp"
+#include "libs/fem/fibre_forces.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
 #include "libs/fem/tet_mesh.hpp"
 
 namespace palpate::fem {
 
-/// The internal forces of a meshed elastic body and their exact tangent.
+/// The internal forces of a meshed elastic body with its fibres, and their exact tangent.
 /// Sign: F_int(x) = dEnergy/dx is what the body resists with; equilibrium is F_int(x) = f_ext, and
 /// the tangent K = dF_int/dx is positive definite at stable states. (The paper's F(x), eq. 1, is
 /// -F_int, and its K, eq. 2, is -K.)
@@ -28,11 +30,13 @@ class ElasticBody {
   /// reference element is inverted at an integration point, or a material does not allow its
   /// volumetric treatment.
   ElasticBody(const TetMesh& mesh, std::vector<Material> materials,
-              const std::vector<int>& material_of_cell);
+              const std::vector<int>& material_of_cell,
+              const std::vector<EmbeddedFibre>& fibres = {});
 
   int NodeCount() const { return static_cast<int>(rest_m_.size() / 3); }
   const Eigen::VectorXd& rest_m() const { return rest_m_; }  ///< [3n]
   const std::vector<Material>& materials() const { return materials_; }
+  const FibreForces& fibres() const { return fibres_; }
   /// Pairs of nodes that share a cell.
   NodePairs CoupledPairs() const;
 
@@ -47,6 +51,8 @@ class ElasticBody {
   /// Adds F_int(x) [3n], N. Returns the smallest det F (<= 0: an element is inverted, and the
   /// forces must not be used).
   double AddForces(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N) const;
+  /// The same without the fibres: what grows in proportion to all moduli.
+  double AddForcesOfCells(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N) const;
   /// The part of F_int that cells of one material give. All moduli enter linearly, so
   /// dF_int/dE = this / E.
   void AddForcesOfMaterial(int material, const Eigen::VectorXd& x_m,
@@ -57,7 +63,8 @@ class ElasticBody {
                                 StiffnessMatrix& stiffness) const;
   /// Elastic energy, J; `min_J` gets the smallest det F.
   double Energy(const Eigen::VectorXd& x_m, double* min_J) const;
-  /// The same for each cell: overwrites `energy_J` [cells]. Returns the smallest det F.
+  /// The same for each cell without fibres: overwrites `energy_J` [cells]. Returns the smallest
+  /// det F.
   double CellEnergies(const Eigen::VectorXd& x_m, Eigen::VectorXd* energy_J) const;
 
   /// Puts the cells in the order of elimination of `stiffness`, looks up where their blocks lie in
@@ -95,6 +102,7 @@ class ElasticBody {
   std::vector<Material> materials_;
   std::vector<int> material_of_cell_;
   Eigen::VectorXd factor_of_cell_;  ///< [cells], or empty: 1
+  FibreForces fibres_;
 
   std::vector<CellBlocks> laws_;
   RowOrder order_;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
@@ -180,20 +181,25 @@ Eigen::VectorXd PointLocator::ExpandAbout(int cell, const Eigen::Vector3d& xi,
   return shape + gradients.transpose() * step;
 }
 
-InterpolationWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* cell) const {
+Eigen::Vector3d PointLocator::Locate(const Eigen::Vector3d& point_m, int* cell) const {
   const int holder = HoldingCell(point_m);
   *cell = holder >= 0 ? holder : NearestCentroid(point_m);
+  if (holder < 0) return ClosestReferencePoint(*cell, point_m);
   const Eigen::Matrix3Xd nodes_m = CellNodes_m(mesh_, *cell);
   const double size_m = (nodes_m.leftCols<4>().colwise() - nodes_m.col(0)).norm();
-  Eigen::Vector3d xi = holder >= 0 ? Eigen::Vector3d(Barycentric(holder, point_m).tail<3>())
-                                   : ClosestReferencePoint(*cell, point_m);
-  for (int step = 0; holder >= 0 && step < kMaxCurvatureSteps; ++step) {
+  Eigen::Vector3d xi = Barycentric(holder, point_m).tail<3>();
+  for (int step = 0; step < kMaxCurvatureSteps; ++step) {
     const Eigen::Vector3d gap_m = point_m - nodes_m * ShapeFunctions(mesh_.element_type(), xi);
     if (gap_m.norm() < kCurvatureTolerance * size_m) break;
     const Eigen::Matrix3d jacobian_m =
         nodes_m * ShapeGradients(mesh_.element_type(), xi).transpose();
     xi += jacobian_m.inverse() * gap_m;
   }
+  return xi;
+}
+
+InterpolationWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* cell) const {
+  const Eigen::Vector3d xi = Locate(point_m, cell);
   const Eigen::VectorXd values = ExpandAbout(*cell, xi, point_m);
   InterpolationWeights weights;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
@@ -201,6 +207,58 @@ InterpolationWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* 
     weights.weights.push_back(values(k));
   }
   return Combine({weights}, {1.0});
+}
+
+InterpolationWeights PointLocator::EmbedDirection(const Eigen::Vector3d& point_m,
+                                                  const Eigen::Vector3d& direction,
+                                                  int* cell) const {
+  const Eigen::Vector3d xi = Locate(point_m, cell);
+  const Eigen::Matrix3Xd gradients = ShapeGradients(mesh_.element_type(), xi);
+  const Eigen::Matrix3d jacobian_m = CellNodes_m(mesh_, *cell) * gradients.transpose();
+  const Eigen::VectorXd values = gradients.transpose() * (jacobian_m.inverse() * direction);
+  InterpolationWeights weights;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    weights.nodes.push_back(mesh_.cells(k, *cell));
+    weights.weights.push_back(values(k));
+  }
+  return weights;
+}
+
+std::vector<double> PointLocator::Crossings(const Eigen::Vector3d& a_m,
+                                            const Eigen::Vector3d& b_m) const {
+  constexpr double kSame = 1e-6;  // shorter pieces than this share are no pieces
+  const Eigen::Array3i first = GridIndex(a_m.cwiseMin(b_m));
+  const Eigen::Array3i last = GridIndex(a_m.cwiseMax(b_m));
+  std::set<int> met;
+  for (int x = first.x(); x <= last.x(); ++x) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int z = first.z(); z <= last.z(); ++z) {
+        const std::vector<int>& cells = grid_[GridCell({x, y, z})];
+        met.insert(cells.begin(), cells.end());
+      }
+    }
+  }
+  std::vector<double> shares{0.0, 1.0};
+  for (const int cell : met) {
+    // Each coordinate changes linearly on the way.
+    const auto on_face = [](double value) { return std::abs(value) < -kInside ? 0.0 : value; };
+    const Eigen::Vector4d from = Barycentric(cell, a_m).unaryExpr(on_face);
+    const Eigen::Vector4d to = Barycentric(cell, b_m).unaryExpr(on_face);
+    double enters = 0.0, leaves = 1.0;
+    for (int k = 0; k < 4; ++k) {
+      const double zero = from[k] / (from[k] - to[k]);
+      if (from[k] < 0.0) enters = to[k] < 0.0 ? 2.0 : std::max(enters, zero);
+      if (from[k] >= 0.0 && to[k] < 0.0) leaves = std::min(leaves, zero);
+    }
+    if (leaves - enters > kSame) shares.insert(shares.end(), {enters, leaves});
+  }
+  std::sort(shares.begin(), shares.end());
+  std::vector<double> distinct{0.0};
+  for (const double share : shares) {
+    if (share > distinct.back() + kSame && share < 1.0 - kSame) distinct.push_back(share);
+  }
+  distinct.push_back(1.0);
+  return distinct;
 }
 
 double PointLocator::Distance_m(const Eigen::Vector3d& point_m) const {

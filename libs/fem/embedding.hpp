@@ -39,6 +39,15 @@ class PointLocator {
   /// rest_m, distance_m and cell are those of the centre; a radius of 0 is Embed.
   BodyPoint EmbedBall(const Eigen::Vector3d& centre_m, double radius_m) const;
 
+  /// A line through `point_m` along `direction` in the same cell: weights with sum 0, in the order
+  /// of the nodes of `cell`, that give the direction of that line in the deformed body.
+  InterpolationWeights EmbedDirection(const Eigen::Vector3d& point_m,
+                                      const Eigen::Vector3d& direction, int* cell) const;
+
+  /// Where the straight line from `a_m` to `b_m` enters or leaves a cell (of a curved tet10: its
+  /// corner tetrahedron), as shares of its length: rising, from 0 to 1.
+  std::vector<double> Crossings(const Eigen::Vector3d& a_m, const Eigen::Vector3d& b_m) const;
+
   /// Distance to the nearest point of the rest surface; 0 inside the mesh.
   double Distance_m(const Eigen::Vector3d& point_m) const;
 
@@ -54,6 +63,9 @@ class PointLocator {
   Eigen::Vector3d ClosestReferencePoint(int cell, const Eigen::Vector3d& point_m) const;
   Eigen::VectorXd ExpandAbout(int cell, const Eigen::Vector3d& xi,
                               const Eigen::Vector3d& point_m) const;
+  /// Reference coordinates of the point in the cell that holds it; outside those of the nearest
+  /// point of the cell with the nearest centroid.
+  Eigen::Vector3d Locate(const Eigen::Vector3d& point_m, int* cell) const;
   InterpolationWeights Weights(const Eigen::Vector3d& point_m, int* cell) const;
   void BuildGrid();
   Eigen::Array3i GridIndex(const Eigen::Vector3d& point_m) const;

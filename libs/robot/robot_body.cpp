@@ -19,6 +19,7 @@
 #include "libs/robot/body_mesh.hpp"
 #include "libs/robot/chamber.hpp"
 #include "libs/robot/chamber_wall.hpp"
+#include "libs/robot/fibre_paths.hpp"
 
 namespace palpate::robot {
 
@@ -319,7 +320,26 @@ void PlaceChambers(const RobotDescription& robot, const fem::PointLocator& locat
   }
 }
 
+void PlaceFibres(const RobotDescription& robot, const fem::PointLocator& locator, RobotBody* body) {
+  if (robot.fibres.empty()) return;
+  const double inextensible_N = InextensibleStiffness_N(body->mesh, body->materials);
+  for (const FibreSettings& settings : robot.fibres) {
+    BodyFibre fibre = LayFibre(settings, locator, inextensible_N);
+    if (fibre.embedded.off_m > 0.0) {
+      body->notes.push_back("fibre " + fibre.name + " " + Millimetres(fibre.embedded.off_m) +
+                            " outside the mesh at its farthest, extrapolated");
+    }
+    body->fibres.push_back(std::move(fibre));
+  }
+}
+
 }  // namespace
+
+std::vector<fem::EmbeddedFibre> EmbeddedFibres(const std::vector<BodyFibre>& fibres) {
+  std::vector<fem::EmbeddedFibre> embedded;
+  for (const BodyFibre& fibre : fibres) embedded.push_back(fibre.embedded);
+  return embedded;
+}
 
 std::vector<ActuatorTraits> ActuatorsOf(const RobotBody& body) {
   std::vector<ActuatorTraits> actuators;
@@ -362,6 +382,7 @@ RobotBody BuildRobotBody(const RobotDescription& robot) {
   body.boundary = locator.boundary();
   PlacePoints(robot, locator, &body);
   PlaceChambers(robot, locator, read.node_groups, &body);
+  PlaceFibres(robot, locator, &body);
   return body;
 }
 

@@ -11,6 +11,7 @@
 #include "libs/fem/boundary_surface.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/enclosed_volume.hpp"
+#include "libs/fem/fibre.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/mullins.hpp"
 #include "libs/fem/prony_term.hpp"
@@ -39,6 +40,13 @@ struct BodyChamber {
   double volume_m3 = 0.0;        ///< of the undeformed body, > 0
   double dead_volume_m3 = 0.0;   ///< of the tube
   double max_pressure_Pa = 0.0;  ///< above ambient
+};
+
+struct BodyFibre {
+  std::string name;
+  std::vector<Eigen::Matrix3Xd> paths_m;  ///< polylines [3 x >= 2], as laid, for scale 1
+  fem::EmbeddedFibre embedded = {};
+  double length_m = 0.0;  ///< of all of them, for scale 1
 };
 
 struct BodyMarker {
@@ -81,6 +89,7 @@ struct RobotBody {
   double scale = 1.0;  ///< how much larger all of it is than the robot file says (ScaleBody)
   std::vector<BodyCable> cables;
   std::vector<BodyChamber> chambers;
+  std::vector<BodyFibre> fibres;
   double eyelet_room_m = 0.0;  ///< how far a model of it can move eyelets (GiveEyeletsRoom)
   std::vector<BodyMarker> markers;
   std::vector<fem::BodyPoint> feature_points;
@@ -98,11 +107,15 @@ struct RobotBody {
 /// mesh that cannot be read or solved, or is of another element; a fixed box without a node; a
 /// piece of the mesh that is not held against every rigid motion; a region without an element; a
 /// point of a cable more than 20 mm or 5 % of the body's diagonal from the body, whichever is less;
-/// a marker or a given feature point farther from it than that diagonal; what ChamberWall refuses.
+/// a marker or a given feature point farther from it than that diagonal; what ChamberWall and
+/// LayFibre refuse.
 RobotBody BuildRobotBody(const RobotDescription& robot);
 
 /// Cables, then chambers: the order of commands and multipliers.
 std::vector<ActuatorTraits> ActuatorsOf(const RobotBody& body);
+
+/// The fibres of all of them, for the elastic body.
+std::vector<fem::EmbeddedFibre> EmbeddedFibres(const std::vector<BodyFibre>& fibres);
 
 /// The rest surface where something can touch: contact_faces, or all where there are none.
 geometry::TriangleSurface ContactSurface(const RobotBody& body);

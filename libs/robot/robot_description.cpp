@@ -191,14 +191,10 @@ void ReadFixed(const ConfigNode& node, RobotDescription* robot) {
     Refuse(node, "a body that nothing holds has no equilibrium: give a box");
 }
 
-Eigen::Matrix3Xd ReadCablePath(const ConfigNode& node) {
+/// A polyline none of whose pieces has no length.
+Eigen::Matrix3Xd ReadPolyline(const ConfigNode& node, const std::string& needs) {
   const Eigen::Matrix3Xd path_m = ReadPoints(node);
-  if (path_m.cols() < 2) {
-    Refuse(node,
-           "a cable needs at least 2 points (where it is pulled from, and points on the "
-           "body), not " +
-               std::to_string(path_m.cols()));
-  }
+  if (path_m.cols() < 2) Refuse(node, needs + ", not " + std::to_string(path_m.cols()));
   for (Eigen::Index k = 1; k < path_m.cols(); ++k) {
     if (path_m.col(k) == path_m.col(k - 1)) {
       Refuse(node.items[At(k)], "is the same point as the one before it");
@@ -212,7 +208,9 @@ CableSettings ReadCable(const ConfigNode& node, std::set<std::string>* names) {
   CableSettings cable;
   cable.where = node.where;
   cable.name = ReadUniqueName(map.Require("name"), names);
-  cable.path_m = ReadCablePath(map.Require("path_m"));
+  cable.path_m = ReadPolyline(map.Require("path_m"),
+                              "a cable needs at least 2 points (where it is pulled from, and "
+                              "points on the body)");
   map.Read("max_tension_N", &cable.max_tension_N);
   map.Read("guide_radius_m", &cable.guide_radius_m);
   map.Read("friction_coefficient", &cable.friction_coefficient);
@@ -246,6 +244,63 @@ ChamberSettings ReadChamber(const ConfigNode& node, std::set<std::string>* names
   map.Read("max_pressure_Pa", &chamber.max_pressure_Pa);
   map.Finish();
   return chamber;
+}
+
+Winding ReadWinding(const ConfigNode& node, Winding::Kind kind) {
+  const bool is_helix = kind == Winding::Kind::kHelix;
+  MapReader map(node, is_helix ? HelixKeys() : RingKeys());
+  Winding winding;
+  winding.kind = kind;
+  const ConfigNode& axis = map.Require("axis_m");
+  const Eigen::Matrix3Xd ends_m = ReadPolyline(axis, "an axis needs 2 points");
+  if (ends_m.cols() != 2) Refuse(axis, "an axis needs 2 points, not more");
+  winding.axis_m = ends_m;
+  const double length_m = (ends_m.col(1) - ends_m.col(0)).norm();
+  map.Read("radius_m", &winding.radius_m);
+  const ConfigNode* spacing = map.Optional(is_helix ? "pitch_m" : "spacing_m");
+  const ConfigNode* number = map.Optional(is_helix ? "turns" : "count");
+  if ((spacing != nullptr) == (number != nullptr)) {
+    Refuse(node, is_helix ? "needs either pitch_m or turns" : "needs either spacing_m or count");
+  }
+  map.Read(is_helix ? "pitch_m" : "spacing_m", &winding.spacing_m);
+  if (number != nullptr && is_helix) {
+    double turns = 0.0;
+    map.Read("turns", &turns);
+    winding.spacing_m = length_m / turns;
+  } else if (number != nullptr) {
+    int count = 0;
+    map.Read("count", &count);
+    winding.spacing_m = count > 1 ? length_m / (count - 1) : 2.0 * length_m;
+  }
+  if (is_helix) {
+    std::string hand;
+    map.Read("hand", &hand);
+    winding.left_handed = hand == "left";
+  }
+  map.Finish();
+  if (length_m > kMaxRings * winding.spacing_m) {
+    Refuse(spacing != nullptr ? *spacing : *number,
+           "would make more than " + std::to_string(kMaxRings) + " turns; is it in metres?");
+  }
+  return winding;
+}
+
+FibreSettings ReadFibre(const ConfigNode& node, std::set<std::string>* names) {
+  MapReader map(node, FibreKeys());
+  FibreSettings fibre;
+  fibre.name = ReadUniqueName(map.Require("name"), names);
+  const ConfigNode* path = map.Optional("path_m");
+  const ConfigNode* helix = map.Optional("helix");
+  const ConfigNode* rings = map.Optional("rings");
+  map.Read("axial_stiffness_N", &fibre.axial_stiffness_N);
+  map.Finish();
+  const int given = (path != nullptr) + (helix != nullptr) + (rings != nullptr);
+  if (given != 1) Refuse(node, "needs one of path_m, helix and rings");
+  if (path != nullptr) fibre.path_m = ReadPolyline(*path, "a fibre needs at least 2 points");
+  if (helix != nullptr) fibre.winding = ReadWinding(*helix, Winding::Kind::kHelix);
+  if (rings != nullptr) fibre.winding = ReadWinding(*rings, Winding::Kind::kRings);
+  fibre.where = path != nullptr ? path->where : helix != nullptr ? helix->where : rings->where;
+  return fibre;
 }
 
 RegionSettings ReadRegion(const ConfigNode& node, std::set<std::string>* names) {
@@ -345,6 +400,7 @@ RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLo
   std::set<std::string> cable_names;
   for (const CableSettings& cable : robot.cables) cable_names.insert(cable.name);
   robot.chambers = ReadList<ChamberSettings>(&map, "chambers", ReadChamber, cable_names);
+  robot.fibres = ReadList<FibreSettings>(&map, "fibres", ReadFibre);
   robot.regions = ReadList<RegionSettings>(&map, "regions", ReadRegion);
   robot.markers = ReadList<MarkerSettings>(&map, "markers", ReadMarker);
   if (const ConfigNode* points = map.Optional("feature_points")) ReadFeaturePoints(*points, &robot);

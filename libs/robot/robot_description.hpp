@@ -68,6 +68,26 @@ struct ChamberSettings {
   SourceLocation surface_where;
 };
 
+/// A fibre wound round an axis, as a thread or as separate closed rings.
+struct Winding {
+  enum class Kind { kHelix, kRings };
+  Kind kind = Kind::kHelix;
+  Eigen::Matrix<double, 3, 2> axis_m;  ///< where it begins and ends, robot frame; they differ
+  double radius_m = 0.0;               ///< > 0
+  double spacing_m = 0.0;              ///< > 0, along the axis: pitch of the helix, or of the rings
+  bool left_handed = false;            ///< of a helix
+};
+
+/// A line in the body that keeps its length: a thread, or rings. Either a polyline or a winding.
+struct FibreSettings {
+  std::string name;
+  Eigen::Matrix3Xd path_m;         ///< [3 x >=2], robot frame, at rest; or empty
+  std::optional<Winding> winding;  ///< where there is no path
+  /// EA, N, > 0. Nothing: stiff enough to keep its length (fibre_paths.hpp).
+  std::optional<double> axial_stiffness_N;
+  SourceLocation where;
+};
+
 /// A named part of the body; its own modulus where given, else the body's.
 struct RegionSettings {
   std::string name;
@@ -98,6 +118,7 @@ struct RobotDescription {
   std::vector<SourceLocation> fixed_where;
   std::vector<CableSettings> cables;
   std::vector<ChamberSettings> chambers = {};
+  std::vector<FibreSettings> fibres = {};
   std::vector<RegionSettings> regions;
   std::vector<MarkerSettings> markers;
   int feature_point_count = 51;       ///< used where no positions are given
@@ -125,6 +146,8 @@ inline constexpr NumberRule kPoissonsRatio{
     .min = -1.0, .max = kLargestPoissonsRatio, .min_open = true};
 inline constexpr int kMaxFeaturePoints = 100000;
 inline constexpr int kMaxInnerSkin = 1000;
+/// Of one fibre: rings, and turns of a helix.
+inline constexpr int kMaxRings = 10000;
 
 /// The description as the text of a robot file that lies in `folder`: the path of the mesh is
 /// written relative to it. Reading it back gives the same description.

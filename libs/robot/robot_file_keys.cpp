@@ -163,6 +163,54 @@ const KeyTable& ChamberKeys() {
   return keys;
 }
 
+const KeyTable& HelixKeys() {
+  static const KeyTable keys{
+      .title = "helix",
+      .about = "A thread wound round an axis.",
+      .keys = {{"axis_m", value::Points(2, 2), kRequired,
+                "Where the winding begins and ends on its axis, robot frame."},
+               {"radius_m", value::Real(kPositive), kRequired, "Radius of the winding."},
+               {"pitch_m", value::Real(kPositive), kOptional,
+                "How far the thread gets along the axis in one turn."},
+               {"turns", value::Real(kPositive), kOptional, "Number of turns from end to end."},
+               {"hand", value::Choice({"right", "left"}), Default("right"),
+                "Right: it turns as a usual screw. Two helices of either hand are a braid."}},
+      .exactly_one = {{"pitch_m", "turns"}}};
+  return keys;
+}
+
+const KeyTable& RingKeys() {
+  static const KeyTable keys{
+      .title = "rings",
+      .about = "Closed rings round an axis.",
+      .keys = {{"axis_m", value::Points(2, 2), kRequired,
+                "The first ring is at the first point, robot frame. The last is at the second "
+                "point or before it."},
+               {"radius_m", value::Real(kPositive), kRequired, "Radius of the rings."},
+               {"spacing_m", value::Real(kPositive), kOptional, "Distance from ring to ring."},
+               {"count", value::WholeNumber(1, kMaxRings), kOptional,
+                "Number of rings, evenly from end to end."}},
+      .exactly_one = {{"spacing_m", "count"}}};
+  return keys;
+}
+
+const KeyTable& FibreKeys() {
+  static const KeyTable keys{
+      .title = "fibre",
+      .about =
+          "A line in the body that keeps its length: a thread, or rings. It moves with the "
+          "material, and resists tension and compression alike.",
+      .keys = {{"name", value::Text(), kRequired, "Unique name."},
+               {"path_m", value::Points(2), kOptional, "Polyline at rest, robot frame."},
+               {"helix", value::Map(HelixKeys()), kOptional, "A thread round an axis."},
+               {"rings", value::Map(RingKeys()), kOptional, "Rings round an axis."},
+               {"axial_stiffness_N", value::Real(kPositive), kOptional,
+                "Young's modulus times cross-section of the thread, or of each ring. Absent: it is "
+                "inextensible; `palpate info ROBOT` gives the stiffness that stands for this."}},
+      .exactly_one = {{"path_m", "helix", "rings"}}};
+  return keys;
+}
+
 const KeyTable& RegionKeys() {
   static const KeyTable keys{
       .title = "region",
@@ -231,6 +279,8 @@ const KeyTable& RobotFileKeys() {
                {"cables", value::ListOfMaps(CableKeys()), kOptional, "Cables. Absent: none."},
                {"chambers", value::ListOfMaps(ChamberKeys()), kOptional,
                 "Chambers under pressure. Absent: none."},
+               {"fibres", value::ListOfMaps(FibreKeys()), kOptional,
+                "Fibres and stiff rings in the body. Absent: none."},
                {"regions", value::ListOfMaps(RegionKeys()), kOptional,
                 "Named parts of the body. Absent: none."},
                {"markers", value::ListOfMaps(MarkerKeys()), kOptional, "Markers. Absent: none."},

@@ -100,6 +100,24 @@ std::string ChamberText(const ChamberSettings& chamber, const std::filesystem::p
          "\n    max_pressure_Pa: " + FormatNumber(chamber.max_pressure_Pa) + "\n";
 }
 
+std::string FibreText(const FibreSettings& fibre) {
+  std::string text = "  - name: " + Quoted(fibre.name) + "\n";
+  if (const auto& winding = fibre.winding) {
+    const bool is_helix = winding->kind == Winding::Kind::kHelix;
+    text += std::string("    ") + (is_helix ? "helix" : "rings") +
+            ": {axis_m: " + Points(winding->axis_m) +
+            ", radius_m: " + FormatNumber(winding->radius_m) +
+            (is_helix ? ", pitch_m: " : ", spacing_m: ") + FormatNumber(winding->spacing_m) +
+            (winding->left_handed ? ", hand: left}\n" : "}\n");
+  } else {
+    text += "    path_m: " + Points(fibre.path_m) + "\n";
+  }
+  if (fibre.axial_stiffness_N) {
+    text += "    axial_stiffness_N: " + FormatNumber(*fibre.axial_stiffness_N) + "\n";
+  }
+  return text;
+}
+
 std::string RegionText(const RegionSettings& region) {
   std::string text = "  - {name: " + Quoted(region.name) + ", " +
                      (region.mesh_group.empty() ? BoxText(region.box)
@@ -131,6 +149,8 @@ std::string FormatRobotFile(const RobotDescription& robot, const std::filesystem
   for (const CableSettings& cable : robot.cables) text += CableText(cable);
   if (!robot.chambers.empty()) text += "chambers:\n";
   for (const ChamberSettings& chamber : robot.chambers) text += ChamberText(chamber, folder);
+  if (!robot.fibres.empty()) text += "fibres:\n";
+  for (const FibreSettings& fibre : robot.fibres) text += FibreText(fibre);
   if (!robot.regions.empty()) text += "regions:\n";
   for (const RegionSettings& region : robot.regions) text += RegionText(region);
   if (!robot.markers.empty()) text += "markers:\n";

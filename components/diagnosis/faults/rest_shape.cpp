@@ -121,7 +121,8 @@ struct SoftShapes {
 /// By subspace iteration on the inverse of the stiffness at rest. Empty where it has none.
 SoftShapes SoftestShapes(const robot::RobotBody& body) {
   constexpr int kIterations = 25;
-  fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell);
+  fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell,
+                           robot::EmbeddedFibres(body.fibres));
   fem::Linearisation linearisation(elastic, {}, body.fixed);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(elastic.rest_m().size());
   if (!linearisation.Update(elastic.rest_m(), {}, none).ok()) return {};

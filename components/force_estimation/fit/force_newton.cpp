@@ -439,11 +439,12 @@ Status ForceNewton::CheckTensions(const ModelState& state) const {
   return Status::Ok();
 }
 
-/// Stiffer material needs larger forces for the same shape: the internal forces grow with ln E, and
-/// the fit with them by dlambda_f/dlnE = -(G' S^-1 G)^-1 G' S^-1 de/dlnE.
+/// Stiffer material needs larger forces for the same shape: the forces of the cells grow with ln E,
+/// those of fibres do not, and the fit with them by dlambda_f/dlnE = -(G' S^-1 G)^-1 G' S^-1
+/// de/dlnE.
 void ForceNewton::ModulusSensitivity(const RowTargets& targets, const ModelState& state) {
   nodal_.setZero();
-  model_.elastic_body().AddForces(state.x_m, nodal_);
+  model_.elastic_body().AddForcesOfCells(state.x_m, nodal_);
   nodal_ *= -1.0;
   RespondTo(nodal_, state.x_m, &response_motion_m_);
   fit_.modulus_sensitivity_N.noalias() =

@@ -162,6 +162,8 @@ void EquilibriumPoint::ApplyHeldMotion(ParameterColumn* column) const {
   if (!column->HasHeldMotion()) return;
   const Eigen::VectorXd& motion_m = column->held_motion_m();
   elements().AddAlongPositions(materials(), x_m_, motion_m, -1.0, column->distributed_force_N());
+  model_.elastic_body().fibres().AddAlongPositions(x_m_, motion_m, -1.0,
+                                                   column->distributed_force_N());
   for (int c = 0; c < model_.CableCount(); ++c) {
     Eigen::Matrix3Xd& path_motion_m = path_m_[At(c)];
     PathMotion(c, motion_m, &path_motion_m);

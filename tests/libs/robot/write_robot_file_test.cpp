@@ -47,6 +47,19 @@ void ExpectSameLists(const RobotDescription& a, const RobotDescription& b) {
     EXPECT_EQ(a.cables[k].friction_coefficient, b.cables[k].friction_coefficient);
     EXPECT_EQ(a.cables[k].play_m, b.cables[k].play_m);
   }
+  ASSERT_EQ(a.fibres.size(), b.fibres.size());
+  for (size_t k = 0; k < a.fibres.size(); ++k) {
+    EXPECT_EQ(a.fibres[k].name, b.fibres[k].name);
+    EXPECT_EQ(a.fibres[k].path_m, b.fibres[k].path_m);
+    EXPECT_EQ(a.fibres[k].axial_stiffness_N, b.fibres[k].axial_stiffness_N);
+    ASSERT_EQ(a.fibres[k].winding.has_value(), b.fibres[k].winding.has_value());
+    if (!a.fibres[k].winding) continue;
+    EXPECT_EQ(a.fibres[k].winding->kind, b.fibres[k].winding->kind);
+    EXPECT_EQ(a.fibres[k].winding->axis_m, b.fibres[k].winding->axis_m);
+    EXPECT_EQ(a.fibres[k].winding->radius_m, b.fibres[k].winding->radius_m);
+    EXPECT_EQ(a.fibres[k].winding->spacing_m, b.fibres[k].winding->spacing_m);
+    EXPECT_EQ(a.fibres[k].winding->left_handed, b.fibres[k].winding->left_handed);
+  }
   ASSERT_EQ(a.regions.size(), b.regions.size());
   for (size_t k = 0; k < a.regions.size(); ++k) {
     EXPECT_EQ(a.regions[k].name, b.regions[k].name);
@@ -73,6 +86,18 @@ TEST(WriteRobotFile, WhatIsReadBackIsTheSame) {
               "poissons_ratio: 0.45, creep: [{share: 0.15, time_s: 5}, {share: 1, time_s: 60}], "
               "softening: {r: 2.5, m_J_m3: 300}"),
       Changed("max_tension_N: 20", "max_tension_N: 20, play_m: 0.0012"),
+      Changed(
+          "regions:\n",
+          "fibres:\n"
+          "  - {name: line, path_m: [[0, 0.01, 0], [0, 0.09, 0]], axial_stiffness_N: 500}\n"
+          "  - {name: a, helix: {axis_m: [[0, 0, 0], [0, 0.1, 0]], radius_m: 0.007, turns: 7}}\n"
+          "  - {name: b, helix: {axis_m: [[0, 0, 0], [0, 0.1, 0]], radius_m: 0.007,\n"
+          "      pitch_m: 0.011, hand: left}}\n"
+          "  - {name: c, rings: {axis_m: [[0, 0, 0], [0, 0.1, 0]], radius_m: 0.007,\n"
+          "      count: 4}, axial_stiffness_N: 20}\n"
+          "  - {name: d, rings: {axis_m: [[0, 0, 0], [0, 0.1, 0]], radius_m: 0.007,\n"
+          "      spacing_m: 0.01}}\n"
+          "regions:\n"),
       Changed("name: test beam", "name: 'a \\ back'"),
       Changed("box_m: [[-0.02, 0, -0.02], [0.02, 0.02, 0.02]]", "mesh_group: 'soft body: 1'"),
       Changed("{count: 12}", "[[0, 0.1, 0], [0.1e-7, 0.05, 0.0123456789]]")};

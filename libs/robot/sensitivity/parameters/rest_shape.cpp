@@ -20,6 +20,8 @@ class RestShape : public Parameter {
     PALPATE_CHECK(mode_m.size() == at.x_m().size(), mode_m.size());
     at.elements().AddAlongRestShape(at.materials(), at.x_m(), mode_m, -1.0,
                                     column->distributed_force_N());
+    at.model().elastic_body().fibres().AddAlongRestShape(at.x_m(), mode_m, -1.0,
+                                                         column->distributed_force_N());
     for (Eigen::Index node = 0; node < mode_m.size() / 3; ++node) {
       at.MoveHeldNode(node, mode_m.segment<3>(3 * node), column);
     }

@@ -113,7 +113,8 @@ Solution Solve(const StaticProblem& problem) { return SolveInSteps(problem, 1); 
 
 Solution SolveInSteps(const StaticProblem& problem, int steps) {
   ElasticBody body(problem.mesh, {problem.material},
-                   std::vector<int>(static_cast<size_t>(problem.mesh.CellCount()), 0));
+                   std::vector<int>(static_cast<size_t>(problem.mesh.CellCount()), 0),
+                   problem.fibres);
   Linearisation linearisation(body, problem.constraints, problem.fixed);
   StaticSolver solver(linearisation);
   StaticState state = solver.RestState();

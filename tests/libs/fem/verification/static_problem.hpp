@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "libs/fem/fibre.hpp"
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/static_solver.hpp"
 #include "tests/libs/fem/verification/grid_mesh.hpp"
@@ -43,6 +44,7 @@ struct StaticProblem {
   Eigen::VectorXd external_force_N;  ///< [3n]
   std::vector<ScalarConstraint*> constraints;
   std::vector<ConstraintCommand> commands;
+  std::vector<EmbeddedFibre> fibres;
   std::vector<FacePressure> pressures;  ///< for CalculiX; here a constraint presses
 };
 
