@@ -182,7 +182,8 @@ fem::StaticResult SolveRow(const LoadCase& row, const std::vector<robot::DeadLoa
     result.status = *impossible;
     return result;
   }
-  result = model->Solve(row.cables, loads, state);
+  result = row.gas.empty() ? model->Solve(row.cables, loads, state)
+                           : robot::SolveWithGas(*model, row.cables, row.gas, loads, state);
   if (!result.status.ok()) {
     ExplainFailure(row, *model, *state, &result);
   }

@@ -23,9 +23,10 @@ namespace palpate::command {
 namespace {
 
 LoadCases ReadCases(const SolveOptions& options, const robot::RobotModel& model) {
-  std::optional<experiment::Actuation> actuation;
+  std::optional<experiment::ActuationWithGas> actuation;
   if (!options.actuation.empty()) {
     actuation = ReadActuationRows(options.actuation);
+    CheckAir(*actuation, model.body().chambers);
   }
   std::vector<experiment::KnownLoad> loads;
   if (!options.loads.empty()) {
@@ -124,10 +125,12 @@ app::Verb SolveVerb() {
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<SolveOptions>();
             DeclareRobot(arguments, &options->robot);
-            arguments.Option("--actuation", &options->actuation,
-                             "CSV file with the columns t_s and CABLE.displacement_m or "
-                             "CABLE.tension_N, CHAMBER.pressure_Pa or CHAMBER.volume_m3; each row "
-                             "is one static state; without it nothing is actuated");
+            arguments.Option(
+                "--actuation", &options->actuation,
+                "CSV file with the columns t_s and CABLE.displacement_m or "
+                "CABLE.tension_N, CHAMBER.pressure_Pa, CHAMBER.volume_m3 or, of a closed "
+                "chamber, CHAMBER.air_m3 (pumped in, at ambient pressure); each row "
+                "is one static state; without it nothing is actuated");
             arguments.Option("--loads", &options->loads,
                              "CSV file with the columns t_s, x_m, y_m, z_m, fx_N, fy_N, fz_N and "
                              "optionally patch_radius_m; a row holds until the next one; without "

@@ -9,13 +9,14 @@
 #include <optional>
 #include <utility>
 
-#include "libs/core/check.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/actuator_fault.hpp"
 #include "libs/experiment/csv_columns.hpp"
 #include "libs/experiment/csv_table.hpp"
+#include "libs/experiment/gas_inputs.hpp"
+#include "libs/experiment/interpolate_samples.hpp"
 
 namespace palpate::experiment {
 
@@ -28,6 +29,7 @@ constexpr const char* kDisplacementSuffix = ".displacement_m";
 constexpr const char* kTensionSuffix = ".tension_N";
 constexpr const char* kVolumeSuffix = ".volume_m3";
 constexpr const char* kPressureSuffix = ".pressure_Pa";
+constexpr const char* kAirSuffix = ".air_m3";
 constexpr const char* kExpected =
     "expected <cable>.displacement_m, <cable>.tension_N, <chamber>.pressure_Pa or "
     "<chamber>.volume_m3";
@@ -42,6 +44,17 @@ constexpr std::array kSuffixes{Suffix{kDisplacementSuffix, ActuatorQuantity::kDi
                                Suffix{kTensionSuffix, ActuatorQuantity::kTension, false},
                                Suffix{kVolumeSuffix, ActuatorQuantity::kDisplacement, true},
                                Suffix{kPressureSuffix, ActuatorQuantity::kTension, true}};
+
+/// Name of the chamber whose amount of gas a column gives; nullopt: it is another column.
+std::optional<std::string> GasOfChamber(const CsvTable& table, std::size_t index) {
+  const std::string& name = table.header()[index];
+  const std::size_t dot = name.rfind('.');
+  if (dot == 0 || dot == std::string::npos) return std::nullopt;
+  const std::string suffix = name.substr(dot);
+  if (SplitUnit(suffix).stem != SplitUnit(kAirSuffix).stem) return std::nullopt;
+  if (suffix != kAirSuffix) RefuseUnit(table, index, name.substr(0, dot) + kAirSuffix);
+  return name.substr(0, dot);
+}
 
 // Actuator and quantity of a header field; throws where it names no quantity or another unit.
 ActuatorColumn ParseHeaderField(const CsvTable& table, std::size_t index) {
@@ -79,6 +92,25 @@ std::optional<ActuatorColumn> ReadColumn(const CsvTable& table, std::size_t inde
     if (!column.samples.back()) continue;
     const std::string fault =
         ActuatorFault(*column.samples.back(), column.quantity, column.of_chamber);
+    if (!fault.empty()) table.Refuse(row, index, fault);
+    any = true;
+  }
+  if (!any) return std::nullopt;
+  return column;
+}
+
+/// nullopt where every field is empty: the chamber is not closed.
+std::optional<GasColumn> ReadGasColumn(const CsvTable& table, std::size_t index,
+                                       const std::string& chamber) {
+  GasColumn column{
+      .chamber = chamber, .air_m3 = {}, .fields = {}, .where = table.HeaderWhere(index)};
+  bool any = false;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    column.air_m3.push_back(table.OptionalNumber(row, index));
+    column.fields.push_back(table.Where(row, index));
+    if (!column.air_m3.back()) continue;
+    const std::string fault =
+        ActuatorFault(*column.air_m3.back(), ActuatorQuantity::kDisplacement, true);
     if (!fault.empty()) table.Refuse(row, index, fault);
     any = true;
   }
@@ -124,21 +156,19 @@ const ActuatorColumn* Actuation::Find(const std::string& cable, ActuatorQuantity
 }
 
 double Actuation::ValueAt(const ActuatorColumn& column, double t_s_now) const {
-  PALPATE_CHECK(column.samples.size() == t_s.size(), column.samples.size(), t_s.size());
-  const auto upper = std::upper_bound(t_s.begin(), t_s.end(), t_s_now);
-  const auto split = static_cast<std::size_t>(upper - t_s.begin());
-  std::size_t before = split;
-  while (before > 0 && !column.samples[before - 1]) --before;
-  std::size_t after = split;
-  while (after < t_s.size() && !column.samples[after]) ++after;
-  PALPATE_CHECK(before > 0 || after < t_s.size(), column.Header(), "has no sample");
-  if (before == 0) return *column.samples[after];
-  if (after == t_s.size()) return *column.samples[before - 1];
-  const double fraction = (t_s_now - t_s[before - 1]) / (t_s[after] - t_s[before - 1]);
-  return std::lerp(*column.samples[before - 1], *column.samples[after], fraction);
+  return InterpolateSamples(t_s, column.samples, t_s_now);
 }
 
 Actuation ReadActuation(const std::filesystem::path& file) {
+  ActuationWithGas inputs = ReadActuationWithGas(file);
+  if (inputs.gas.empty()) return std::move(inputs.actuation);
+  const GasColumn& gas = inputs.gas.front();
+  throw InputError(gas.where,
+                   "an amount of gas is for palpate solve alone; give what was measured: " +
+                       gas.chamber + kPressureSuffix + " or " + gas.chamber + kVolumeSuffix);
+}
+
+ActuationWithGas ReadActuationWithGas(const std::filesystem::path& file) {
   const CsvTable table = CsvTable::Read(file);
   const auto& header = table.header();
   const auto time = std::find(header.begin(), header.end(), "t_s");
@@ -148,16 +178,20 @@ Actuation ReadActuation(const std::filesystem::path& file) {
   if (header.size() == 1)
     throw InputError(table.HeaderWhere(0), "no column for a cable or a chamber");
 
-  Actuation actuation;
-  actuation.t_s.reserve(table.rows());
+  ActuationWithGas inputs;
+  inputs.actuation.t_s.reserve(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    actuation.t_s.push_back(RisingTime(table, row, time_index, Rise::kStrict));
+    inputs.actuation.t_s.push_back(RisingTime(table, row, time_index, Rise::kStrict));
   }
   for (std::size_t index = 0; index < header.size(); ++index) {
     if (index == time_index) continue;
-    if (auto column = ReadColumn(table, index)) actuation.columns.push_back(std::move(*column));
+    if (const auto chamber = GasOfChamber(table, index)) {
+      if (auto gas = ReadGasColumn(table, index, *chamber)) inputs.gas.push_back(std::move(*gas));
+    } else if (auto column = ReadColumn(table, index)) {
+      inputs.actuation.columns.push_back(std::move(*column));
+    }
   }
-  return actuation;
+  return inputs;
 }
 
 void CheckActuators(const Actuation& actuation, const std::vector<std::string>& cables,

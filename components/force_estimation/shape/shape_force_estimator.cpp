@@ -352,9 +352,9 @@ void ShapeForceEstimator::Impl::ForgetBefore(const ShapeFrame& frame) {
     hidden_.Begin();
     fit_.tracks().Forget();
     fit_.Stop();
-  } else if (std::isfinite(passed_s)) {
-    period_s_ = passed_s;
   }
+  // After a gap, too: where frames take as long to estimate, the next one is no gap.
+  if (!opened && passed_s > 0.0) period_s_ = passed_s;
 }
 
 void ShapeForceEstimator::Impl::Publish() {

@@ -50,6 +50,8 @@ std::vector<ContactForce> WithForce(const std::vector<ContactForce>& contacts) {
 
 }  // namespace
 
+double SmallestForce_N(double largest_N) { return kComparisonTuning.smallest_force * largest_N; }
+
 ComparisonRules RulesOf(const std::map<std::string, TruthTimeline>& truth, double same_place_m) {
   ComparisonRules rules;
   rules.same_place_m = same_place_m;
@@ -59,7 +61,7 @@ ComparisonRules RulesOf(const std::map<std::string, TruthTimeline>& truth, doubl
     largest_N = std::max(largest_N, timeline.LargestForce_N());
     longest_s = std::max(longest_s, timeline.LongestPeriod_s());
   }
-  rules.smallest_N = kComparisonTuning.smallest_force * largest_N;
+  rules.smallest_N = SmallestForce_N(largest_N);
   if (kComparisonTuning.samples_in_window * longest_s > rules.steady_window_s) {
     rules.steady_window_s = 0.0;
   }

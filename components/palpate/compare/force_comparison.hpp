@@ -26,6 +26,8 @@ struct ComparisonRules {
 /// robots of any strength: forces of a tenth of the largest one or more must be detected while they
 /// are steady. Where samples are rare, steadiness is not asked for.
 ComparisonRules RulesOf(const std::map<std::string, TruthTimeline>& truth, double same_place_m);
+/// Size from which on forces must be detected where this is the largest one.
+double SmallestForce_N(double largest_N);
 
 /// A true force, its estimate, or both, in one frame. Without truth: a false alarm;
 /// without estimate: a miss, where it is `due`.

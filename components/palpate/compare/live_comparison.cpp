@@ -31,10 +31,16 @@ double WorthOfPicture(const std::vector<ComparedForce>& compared, bool with_trut
 
 }  // namespace
 
-LiveComparison::LiveComparison(bool with_truth, const ComparisonRules& rules)
-    : with_truth_(with_truth), rules_(rules), tracks_(with_truth) {}
+LiveComparison::LiveComparison(bool with_truth, double same_place_m)
+    : with_truth_(with_truth),
+      rules_{.same_place_m = same_place_m, .smallest_N = 0.0},
+      tracks_(with_truth) {}
 
 void LiveComparison::AddTruth(double t_s, std::vector<TrueContact> contacts) {
+  for (const TrueContact& contact : contacts) {
+    largest_N_ = std::max(largest_N_, contact.force_N.norm());
+  }
+  rules_.smallest_N = SmallestForce_N(largest_N_);
   truth_.Add(t_s, std::move(contacts));
 }
 

@@ -26,7 +26,8 @@ struct ForceFrame {
 };
 
 /// Compares estimates with the truth while both arrive, in any order. Times are stamps on one
-/// clock, s.
+/// clock, s. Forces of a tenth of the largest true one so far must be detected while they are
+/// steady.
 class LiveComparison {
  public:
   /// Maximum time that an estimate waits for the truth of its time.
@@ -35,7 +36,8 @@ class LiveComparison {
                                        const std::vector<ComparedForce>&)>;
 
   /// `with_truth`: false where true forces are unknown; estimates are then not compared.
-  explicit LiveComparison(bool with_truth, const ComparisonRules& rules = {});
+  /// `same_place_m` as in ComparisonRules.
+  explicit LiveComparison(bool with_truth, double same_place_m = ComparisonRules().same_place_m);
 
   void AddTruth(double t_s, std::vector<TrueContact> contacts);
   void AddNodes(double t_s, Eigen::VectorXd nodes_m);
@@ -65,6 +67,7 @@ class LiveComparison {
 
   bool with_truth_;
   ComparisonRules rules_;
+  double largest_N_ = 0.0;  ///< true force so far
   TruthTimeline truth_;
   std::deque<force_estimation::ForceEstimate> waiting_;
   std::map<double, Eigen::VectorXd> nodes_m_;  ///< the newest, by time

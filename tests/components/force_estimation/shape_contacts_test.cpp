@@ -382,5 +382,28 @@ TEST_F(Contacts, FromBeforeAGapInTimeAreForgotten) {
   EXPECT_NEAR(found.contacts.front().force_N.norm(), kForce_N, found.contacts.front().ci95_N);
 }
 
+/// The first frames of a sequence take seconds where the body is bent far. If the next frame, which
+/// is that much later, began another sequence, no contact would ever be followed.
+TEST_F(Contacts, AreFollowedWhereEachFrameTakesSeconds) {
+  ShapeForceEstimator estimator(*scene_.model, Config(), shape_);
+  for (int k = 0; k < 6; ++k) {
+    ShapeFrame frame = FrameOf(free_);
+    frame.untouched = true;
+    estimator.Update(frame);
+  }
+  const fem::StaticState pushed = Solve(kForce_N);
+  const auto after = [&](double passed_s, const ShapeFrame& frame) {
+    ShapeFrame later = frame;
+    later.t_s = (t_s_ += passed_s);
+    return estimator.Update(later);
+  };
+  for (int k = 0; k < 3; ++k) after(2.0, SeenFrameOf(pushed));
+  const ForceEstimate lost = after(2.0, FrameOf(pushed));
+  ASSERT_EQ(lost.contacts.size(), 1u);
+  const ForceEstimate next = after(2.0, FrameOf(pushed));
+  ASSERT_EQ(next.contacts.size(), 1u);
+  EXPECT_EQ(next.contacts.front().name, lost.contacts.front().name);
+}
+
 }  // namespace
 }  // namespace palpate::force_estimation

@@ -99,6 +99,18 @@ TEST_F(LiveComparisonTest, KeepsTheMomentOfMostSteadyForceForThePicture) {
   EXPECT_EQ(comparison_.Tracks()[0].t_s[0], 0.0);
 }
 
+TEST_F(LiveComparisonTest, WhatMustBeDetectedIsAShareOfTheLargestForce) {
+  const auto is_due = [&](double t_s, double pushed_N) {
+    for (int i = 0; i < 4; ++i) AddTruth(t_s + 0.125 * i, pushed_N);
+    comparison_.AddEstimate(Frame(t_s + 0.375, 0.0), 0.0);
+    Advance();
+    return compared_.back().at(0).due;
+  };
+  EXPECT_TRUE(is_due(100.0, 0.02));  // of a soft robot
+  EXPECT_TRUE(is_due(101.0, 0.15));
+  EXPECT_FALSE(is_due(102.0, 0.014));
+}
+
 TEST_F(LiveComparisonTest, TheRateIsThatWithARobot) {
   const auto add = [&](double t_s, StatusCode code) {
     ForceEstimate frame = Frame(t_s, 0.0);

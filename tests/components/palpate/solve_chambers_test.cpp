@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "components/palpate/find_robot.hpp"
 #include "components/palpate/solve_verb.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/csv_table.hpp"
+#include "libs/robot/gas_law.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 
 namespace palpate::command {
@@ -78,6 +80,32 @@ TEST_F(SolveChambers, WhatNoChamberCanHaveIsRefused) {
               AllOf(HasSubstr("a.csv:3:3"), HasSubstr("below a vacuum")));
   EXPECT_THAT(Refusal("t_s,bend.volume_m3\n0,2\n"), HasSubstr("are these millilitres?"));
   EXPECT_THAT(Refusal("t_s,bend.pressure_Pa\n0,nan\n"), HasSubstr("a.csv:2:3"));
+}
+
+TEST_F(SolveChambers, AirThatIsGivenKeepsPressureTimesVolume) {
+  Actuate("t_s,bend.air_m3\n0,0\n1,\n2,1e-6\n");
+  ASSERT_EQ(Solve(options_), 0);
+  const auto model = LoadRobot("pneumatic_finger");
+  const robot::BodyChamber& bend = model->body().chambers.front();
+  const double rest_m3 = bend.volume_m3 + bend.dead_volume_m3;
+  const CsvTable chambers = Chambers();
+  ASSERT_EQ(chambers.rows(), 3U);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double air_m3 = 0.5e-6 * static_cast<double>(row);
+    const double absolute_Pa = robot::kAmbient_Pa + chambers.Number(row, 2);
+    EXPECT_NEAR(absolute_Pa * (rest_m3 + chambers.Number(row, 3)) / robot::kAmbient_Pa,
+                rest_m3 + air_m3, 1e-12);
+  }
+  EXPECT_GT(chambers.Number(2, 2), 1e3);
+  EXPECT_LT(chambers.Number(2, 3), 1e-6);  // it is compressed
+}
+
+TEST_F(SolveChambers, AirIsRefusedWithItsPlaceWhereNoChamberCanHaveIt) {
+  EXPECT_THAT(Refusal("t_s,bend.air_m3\n0,0\n1,-1e-3\n"),
+              AllOf(HasSubstr("a.csv:3:3"), HasSubstr("with its tube it holds")));
+  EXPECT_THAT(Refusal("t_s,bend.pressure_Pa,bend.air_m3\n0,0,0\n"),
+              AllOf(HasSubstr("a.csv:1:22"), HasSubstr("'bend.pressure_Pa'")));
+  EXPECT_THAT(Refusal("t_s,bent.air_m3\n0,0\n"), HasSubstr("did you mean 'bend'"));
 }
 
 TEST_F(SolveChambers, APressureAboveTheSupplysIsNoEquilibriumAndNamesTheChamber) {

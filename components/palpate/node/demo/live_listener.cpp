@@ -18,14 +18,15 @@ constexpr auto kLivePollPeriod = std::chrono::milliseconds(50);
 
 }  // namespace
 
-LiveListener::LiveListener(int domain_id, Truth truth, const std::vector<std::string>& remap)
+LiveListener::LiveListener(int domain_id, Truth truth, const std::vector<std::string>& remap,
+                           double same_place_m)
     : with_truth_(truth == Truth::kKnown),
       participant_(JoinDomain("palpate_demo", domain_id, remap)),
       loop_(participant_),
       forces_(participant_.CreateReader(dds::kForcesTopic)),
       mesh_states_(participant_.CreateReader(dds::kMeshStateTopic)),
       statuses_(participant_.CreateReader(dds::kComponentStatusTopic)),
-      comparison_(with_truth_) {
+      comparison_(with_truth_, same_place_m) {
   loop_.Attach(forces_, [this] { TakeForces(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
   loop_.Attach(statuses_, [this] { TakeReports(); });

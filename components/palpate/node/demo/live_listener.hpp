@@ -23,8 +23,9 @@ class LiveListener {
  public:
   enum class Truth { kKnown, kNone };
 
-  /// Throws RunError where DDS refuses.
-  LiveListener(int domain_id, Truth truth, const std::vector<std::string>& remap = {});
+  /// `same_place_m` as in ComparisonRules. Throws RunError where DDS refuses.
+  LiveListener(int domain_id, Truth truth, const std::vector<std::string>& remap = {},
+               double same_place_m = ComparisonRules().same_place_m);
 
   /// Takes messages until `done()` holds, which is asked at least every 50 ms; false where `limit`
   /// passes before. `take` gets each compared frame.

@@ -14,6 +14,7 @@
 #include "components/capture/network/socket_report.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/palpate/compare/live_line.hpp"
+#include "components/palpate/estimate/known_truth.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/node/demo/demo_place.hpp"
 #include "components/palpate/node/demo/demo_results.hpp"
@@ -22,6 +23,7 @@
 #include "components/palpate/node/demo/live_table.hpp"
 #include "components/palpate/node/demo/replayed_images.hpp"
 #include "components/palpate/node/demo/system_processes.hpp"
+#include "components/palpate/robot_scene.hpp"
 #include "components/palpate/touches/touch_plan.hpp"
 #include "components/palpate/touches/touch_scenario.hpp"
 #include "libs/app/run_main.hpp"
@@ -80,8 +82,9 @@ std::filesystem::path ScenarioFile(const SystemDemoOptions& options,
 // The running system and its listener.
 class DemoRun {
  public:
-  DemoRun(const DemoPlace& place, LiveListener::Truth truth, const std::vector<std::string>& remap)
-      : listener_(place.domain_id, truth, remap), processes_(place, remap) {}
+  DemoRun(const DemoPlace& place, LiveListener::Truth truth, const std::vector<std::string>& remap,
+          double same_place_m)
+      : listener_(place.domain_id, truth, remap, same_place_m), processes_(place, remap) {}
 
   SystemProcesses& processes() { return processes_; }
   const LiveComparison& comparison() const { return listener_.comparison(); }
@@ -292,7 +295,7 @@ int SystemDemo(const SystemDemoOptions& options) {
       "this machine only; results in {}\n",
       place.domain_id, place.folder.string());
   DemoRun run(place, with_truth ? LiveListener::Truth::kKnown : LiveListener::Truth::kNone,
-              options.remap);
+              options.remap, SamePlace_m(BodyDiagonal_m(LoadRobot(robot)->body())));
   run.SetLogFolder(place.folder);
   if (with_truth) {
     PlayBench(options, robot, place, recording, &run);
