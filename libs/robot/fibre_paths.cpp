@@ -23,8 +23,8 @@ namespace {
 /// too few where it is much stiffer than the wall: 3 % of the expansion of a tube in place of 0.4
 /// %.
 constexpr int kChordsPerTurn = 72;
-constexpr double kReach_m = 0.001;
-constexpr double kReachOfDiagonal = 0.01;
+constexpr double kFibreReach_m = 0.001;
+constexpr double kFibreReachOfDiagonal = 0.01;
 constexpr double kInextensible = 30.0;
 
 /// A frame about the axis: z along it, x where the winding begins.
@@ -65,15 +65,15 @@ Eigen::Matrix3Xd Ring(const Winding& winding, double height_m) {
   return path_m;
 }
 
-std::string Millimetres(double length_m) {
+std::string InMillimetres(double length_m) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.3g", length_m * 1e3);
   return text.data();
 }
 
 std::string PlaceText_mm(const Eigen::Vector3d& place_m) {
-  return "(" + Millimetres(place_m.x()) + ", " + Millimetres(place_m.y()) + ", " +
-         Millimetres(place_m.z()) + ") mm";
+  return "(" + InMillimetres(place_m.x()) + ", " + InMillimetres(place_m.y()) + ", " +
+         InMillimetres(place_m.z()) + ") mm";
 }
 
 }  // namespace
@@ -117,12 +117,12 @@ BodyFibre LayFibre(const FibreSettings& settings, const fem::PointLocator& locat
   fibre.embedded.axial_stiffness_N = settings.axial_stiffness_N.value_or(inextensible_N);
   for (const fem::FibrePoint& point : fibre.embedded.points) fibre.length_m += point.length_m;
   const double diagonal_m = geometry::BoundingBox(locator.mesh().nodes_m).Diagonal_m();
-  const double reach_m = std::min(kReach_m, kReachOfDiagonal * diagonal_m);
+  const double reach_m = std::min(kFibreReach_m, kFibreReachOfDiagonal * diagonal_m);
   if (fibre.embedded.off_m > reach_m) {
     throw InputError(settings.where, "fibre '" + settings.name + "' leaves the body near " +
                                          PlaceText_mm(fibre.embedded.off_at_m) + ", " +
-                                         Millimetres(fibre.embedded.off_m) +
-                                         " mm from it; allowed are " + Millimetres(reach_m) +
+                                         InMillimetres(fibre.embedded.off_m) +
+                                         " mm from it; allowed are " + InMillimetres(reach_m) +
                                          " mm (1 mm, or 1 % of the body's diagonal where that is "
                                          "less); is it in metres?");
   }
