@@ -34,6 +34,8 @@ double WorthOfPicture(const std::vector<ComparedForce>& compared, bool with_trut
 LiveComparison::LiveComparison(bool with_truth, double same_place_m)
     : with_truth_(with_truth),
       rules_{.same_place_m = same_place_m, .smallest_N = 0.0},
+      // Each state of the bench comes: between two of them there was none, however slow it is.
+      truth_({.longest_gap_s = std::numeric_limits<double>::infinity()}),
       tracks_(with_truth) {}
 
 void LiveComparison::AddTruth(double t_s, std::vector<TrueContact> contacts) {

@@ -16,6 +16,7 @@ struct NodeConfig {
   double command_timeout_s = 1.0;
   bool repeat = true;
   double max_step_s = 0.1;
+  int most_ahead = 0;
   int threads = 2;
   bool publish_clock = false;
   dds::NodeSettings dds;
@@ -32,6 +33,9 @@ struct NodeConfig {
     v("max_step_s", max_step_s, {.min = 0.0, .min_open = true},
       "Largest step of bench time between two states, s; what a slow computer misses beyond it is "
       "counted as dropped");
+    v("most_ahead", most_ahead, {.min = 0, .max = 1000},
+      "Largest number of states that /forces has not answered yet: the bench waits for it, up to 5 "
+      "s, so that a slow computer loses no frames; 0: it does not wait");
     v("threads", threads, {.min = 1, .max = 64}, "Threads of the solver");
     v("publish_clock", publish_clock,
       "Publish the stamp of each state on /clock, for nodes with dds.use_sim_time");

@@ -21,6 +21,8 @@ namespace {
 using Clock = dds::WaitSet::Clock;
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+/// The first frames of a sequence, in which contacts are searched without a limit, take seconds.
+constexpr auto kLongestAnswer = std::chrono::seconds(5);
 
 double Seconds(Clock::time_point time) { return ToSeconds(time.time_since_epoch()); }
 
@@ -51,6 +53,7 @@ VirtualRobotNode::VirtualRobotNode(const NodeConfig& config, BenchSetup bench, i
       commanded_m_{NothingDriven(bench_.cables.size())},
       last_command_ns_{MonotonicNow_ns()},
       inputs_{participant_, loop_, log_} {
+  if (config.most_ahead > 0) answers_.emplace(participant_, loop_);
   if (config.publish_clock) ros_clock_.emplace(participant_.CreateWriter(dds::kClockTopic));
   inputs_.Expect(commands_, "the controller", dds::InputKind::kStream,
                  [this] { return config_.commands == "topic"; });
@@ -71,6 +74,7 @@ void VirtualRobotNode::Run() {
   clock_.Start(Seconds(Clock::now()));
   while (!loop_.stopped()) {
     loop_.DispatchUntil([] { return false; }, TimePoint(clock_.Due_s()));
+    AwaitAnswers();
     if (loop_.stopped() || Clock::now() < TimePoint(clock_.Due_s())) continue;
     Step();
     const bool over = clock_.bench_s() - pass_start_s_ >= bench_.schedule.Duration_s();
@@ -78,6 +82,14 @@ void VirtualRobotNode::Run() {
     if (over) pass_start_s_ += bench_.schedule.Duration_s();
   }
   ReportHealth();
+}
+
+/// An answer that does not come, as where the frames of all states were lost, is not awaited again.
+void VirtualRobotNode::AwaitAnswers() {
+  if (!answers_) return;
+  const auto most = static_cast<std::size_t>(config_.most_ahead);
+  const auto is_near = [&] { return answers_->Unanswered() < most; };
+  if (!loop_.DispatchUntil(is_near, Clock::now() + kLongestAnswer)) answers_->Forget();
 }
 
 void VirtualRobotNode::Step() {
@@ -129,6 +141,7 @@ void VirtualRobotNode::Publish(const scenario::BenchInputs& inputs,
   auto mesh_state = dds::ToMeshState(robot.positions_m(), robot.mesh_hash(), stamp_ns);
   mesh_state->counter = counter_++;
   Send(mesh_state_, std::move(mesh_state));
+  if (answers_) answers_->NoteSent(stamp_ns);
   ++counts_.published;
 }
 

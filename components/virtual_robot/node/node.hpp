@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "components/virtual_robot/node/answers.hpp"
 #include "components/virtual_robot/node/bench_clock.hpp"
 #include "components/virtual_robot/node/config.hpp"
 #include "components/virtual_robot/node/convert.hpp"
@@ -46,6 +47,7 @@ class VirtualRobotNode {
 
  private:
   void TakeCommands();
+  void AwaitAnswers();
   void Step();
   scenario::BenchInputs InputsNow();
   void Publish(const scenario::BenchInputs& inputs, const scenario::Moment& moment);
@@ -67,6 +69,7 @@ class VirtualRobotNode {
   dds::Writer<idl::palpate_msgs::ForceArray> forces_;
   dds::Writer<idl::palpate_msgs::BenchState> bench_state_;
   std::optional<dds::Writer<idl::rosgraph_msgs::Clock>> ros_clock_;  ///< with publish_clock
+  std::optional<Answers> answers_;                                   ///< with most_ahead
   BenchClock clock_;
   double pass_start_s_ = 0.0;  ///< of the present pass through the scenario, bench time
   Eigen::VectorXd commanded_m_;

@@ -111,6 +111,15 @@ TEST_F(LiveComparisonTest, WhatMustBeDetectedIsAShareOfTheLargestForce) {
   EXPECT_FALSE(is_due(102.0, 0.014));
 }
 
+TEST_F(LiveComparisonTest, ASlowBenchHasSteadyForcesToo) {
+  for (int i = 0; i < 4; ++i) AddTruth(100.0 + 2.0 * i, i == 3 ? 0.4 : 0.3);
+  for (int i = 1; i < 4; ++i) comparison_.AddEstimate(Frame(100.0 + 2.0 * i, 0.3), 0.0);
+  Advance();
+  ASSERT_THAT(compared_, SizeIs(3));
+  EXPECT_TRUE(compared_[0].at(0).due);
+  EXPECT_TRUE(compared_[1].at(0).due);
+}
+
 TEST_F(LiveComparisonTest, TheRateIsThatWithARobot) {
   const auto add = [&](double t_s, StatusCode code) {
     ForceEstimate frame = Frame(t_s, 0.0);

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -48,6 +49,8 @@ constexpr duration<double> kLongestReplay = std::chrono::hours(24);
 constexpr int kUsualSeconds = 30;
 constexpr int kSlowestBench = 10;  ///< the demonstration ends after so many times that
 // Receive buffer that a depth camera at 30 Hz needs.
+// From a state of the virtual robot to its forces, on a computer that is fast enough.
+constexpr double kUsualLatency_s = 0.1;
 constexpr int kPictureBuffer_bytes = 2'097'152;
 void AdviseOnKernel() {
   const auto granted = capture::GrantedReceiveBuffer_bytes(kPictureBuffer_bytes);
@@ -160,6 +163,11 @@ double ScenarioTime_s(const scenario::Scenario& scenario,
   return sum_s;
 }
 
+// One state is computed while the frames of those before are estimated.
+std::string MostAhead(double rate_hz) {
+  return std::to_string(static_cast<int>(std::ceil(kUsualLatency_s * rate_hz)) + 1);
+}
+
 void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot,
                const DemoPlace& place, const std::filesystem::path& recording, DemoRun* run) {
   const std::filesystem::path scenario_file = ScenarioFile(options, robot, place.folder);
@@ -178,7 +186,8 @@ void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& ro
                        {"camera_address", place.CameraAddress()},
                        {"camera_pose", geometry::FormatPose(scenario.camera->T_robot_camera)}},
          .calibration = options.calibration,
-         .settings = {"virtual_robot.rate_hz=" + FormatNumber(scenario.camera->rate_hz)},
+         .settings = {"virtual_robot.rate_hz=" + FormatNumber(scenario.camera->rate_hz),
+                      "virtual_robot.most_ahead=" + MostAhead(scenario.camera->rate_hz)},
          .last = "virtual_robot",
          .page = !options.no_view,
          .recording = recording});

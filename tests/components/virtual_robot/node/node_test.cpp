@@ -225,6 +225,34 @@ TEST(VirtualRobotNode, SaysThatCommandsHaveStopped) {
   EXPECT_THAT(listener.reason, HasSubstr("/robot/command"));
 }
 
+/// Each answer lets one state pass. It gives none before: 5 s are longer than all others take.
+TEST(VirtualRobotNode, IsNoFurtherAheadOfTheForcesThanItMayBe) {
+  NodeConfig config;
+  config.rate_hz = 200.0;
+  config.most_ahead = 2;
+  TestNode estimator("estimator");
+  auto forces = estimator.participant.CreateWriter(dds::kForcesTopic, estimator.Waker());
+  Listener listener;
+  const RunningNode node(config);
+  ASSERT_TRUE(estimator.WaitFor([&] { return forces.matched() > 0; }));
+  for (std::size_t answered = 0; answered < 20; ++answered) {
+    const auto& stamps_ns = listener.bench_stamps_ns;
+    ASSERT_TRUE(listener.WaitFor([&] { return stamps_ns.size() >= answered + 2; }));
+    EXPECT_EQ(stamps_ns.size(), answered + 2);
+    dds::Message<idl::palpate_msgs::ForceArray> answer;
+    dds::SetHeader(answer->header, stamps_ns[answered], "robot");
+    ASSERT_TRUE(forces.Write(answer));
+  }
+}
+
+TEST(VirtualRobotNode, GoesOnWhereNoForcesCome) {
+  NodeConfig config;
+  config.most_ahead = 1;
+  Listener listener;
+  const RunningNode node(config);
+  EXPECT_TRUE(listener.WaitFor([&] { return listener.states >= 2; }));
+}
+
 TEST(VirtualRobotNode, EndsWithTheScenarioWhereItIsNotRepeated) {
   NodeConfig config;
   config.repeat = false;
