@@ -260,19 +260,20 @@ void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
 }
 
 void DiagnosisRun::Extend(Diagnosis* diagnosis) const {
-  std::vector<robot::CalibratedDrive> drives;
+  robot::CalibrationFile changes;
   for (const Choice& choice : selection_.named) {
     const FaultModel& cause = hypotheses_->model(choice.fault);
     const Eigen::VectorXd z = selection_.best.posterior.mean.segment(
         hypotheses_->first(choice.fault), hypotheses_->count(choice.fault));
-    if (!cause.Extend(z, &diagnosis->extended, &drives)) {
+    if (!cause.Extend(z, &diagnosis->extended, &changes)) {
       diagnosis->not_in_files.push_back(cause.words());
     }
   }
-  if (drives.empty()) return;
+  if (changes.drives.empty() && changes.pressure_sensors.empty()) return;
   const robot::RobotModel model(robot::BuildRobotBody(diagnosis->extended));
   diagnosis->calibration = DescribeForCalibration(model);
-  diagnosis->calibration->drives = drives;
+  diagnosis->calibration->drives = std::move(changes.drives);
+  diagnosis->calibration->pressure_sensors = std::move(changes.pressure_sensors);
 }
 
 bool DiagnosisRun::NamedTheMesh() const {

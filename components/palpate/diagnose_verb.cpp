@@ -18,6 +18,7 @@
 #include "components/diagnosis/report/report_html.hpp"
 #include "components/diagnosis/report/verdict_json.hpp"
 #include "components/diagnosis/vocabulary/verdict_words.hpp"
+#include "components/offline/forces/pressure_correction.hpp"
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/force_gain.hpp"
@@ -40,6 +41,7 @@
 #include "libs/experiment/recording_hash.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
+#include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
 
@@ -69,6 +71,7 @@ std::string CommandOf(const DiagnoseOptions& options) {
   for (const std::string& rule : options.remap) command += " --remap " + rule;
   for (const std::string& id : options.exclude) command += " --exclude " + id;
   if (options.from != "all") command += " --from " + options.from;
+  if (!options.calibration.empty()) command += " --calibration " + options.calibration.string();
   return command;
 }
 
@@ -105,9 +108,36 @@ std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experi
   return cameras;
 }
 
-/// The experiment with the data that --from chooses.
-experiment::Experiment ReadData(const fs::path& folder, const DiagnoseOptions& options) {
+/// The pressure sensors of --calibration alone: what else it holds, the diagnosis finds itself.
+robot::CalibrationFile ReadSensors(const fs::path& file, const robot::RobotDescription& robot) {
+  robot::CalibrationFile sensors;
+  if (file.empty()) return sensors;
+  sensors.pressure_sensors = robot::ReadCalibrationFile(file, app::LoadYaml).pressure_sensors;
+  std::vector<std::string> chambers;
+  for (const robot::ChamberSettings& chamber : robot.chambers) chambers.push_back(chamber.name);
+  for (const robot::CalibratedPressureSensor& sensor : sensors.pressure_sensors) {
+    if (IndexOf(sensor.chamber, chambers)) continue;
+    throw InputError("--calibration: " + Unknown("chamber", sensor.chamber, chambers) +
+                     ", whose pressure sensor the file holds");
+  }
+  return sensors;
+}
+
+/// What is written holds for readings, as those of --calibration do.
+void AddSensors(const robot::CalibrationFile& before, diagnosis::Diagnosis* diagnosis) {
+  if (!diagnosis->calibration) return;
+  for (robot::CalibratedPressureSensor& found : diagnosis->calibration->pressure_sensors) {
+    for (const robot::CalibratedPressureSensor& sensor : before.pressure_sensors) {
+      if (sensor.chamber == found.chamber) found = robot::Compose(sensor, found);
+    }
+  }
+}
+
+/// The experiment with the data that --from chooses, and pressures by these sensors.
+experiment::Experiment ReadData(const fs::path& folder, const DiagnoseOptions& options,
+                                const robot::CalibrationFile& sensors) {
   experiment::Experiment experiment = experiment::ReadExperiment(folder, app::LoadYaml);
+  offline::CorrectPressures(sensors, &experiment);
   for (const experiment::Recording& recording : experiment.recordings) RequireLoads(recording);
   if (options.from != "depth") return experiment;
   for (experiment::Recording& recording : experiment.recordings) recording.markers.reset();
@@ -128,6 +158,7 @@ perception::Config ImageSettings(const DiagnoseOptions& options,
 diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions& options,
                                   const robot::RobotDescription& robot,
                                   const app::StopSignal& stop) {
+  const robot::CalibrationFile sensors = ReadSensors(options.calibration, robot);
   const auto begin = std::chrono::steady_clock::now();
   int steps = 1;
   const auto report = [&](int done, int of, const std::string& what) {
@@ -136,7 +167,7 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
                StepLine(done, of, what, SecondsSince(begin), 60.0 * options.most_minutes));
   };
   try {
-    const experiment::Experiment experiment = ReadData(folder, options);
+    const experiment::Experiment experiment = ReadData(folder, options, sensors);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
     PrintWarnings(body);
     force_estimation::CheckMarkerLabels(experiment, robot);
@@ -166,6 +197,7 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
         return stop.Requested() || (longest_s > 0.0 && SecondsSince(begin) > longest_s);
       });
     }
+    AddSensors(sensors, &diagnosis);
     diagnosis.result.data_hash = HashOf(experiment);
     return diagnosis;
   } catch (const InputError& error) {
@@ -314,6 +346,9 @@ app::Verb DiagnoseVerb() {
                              "Experiment folder, or MCAP or .db3 file or folder of them",
                              app::Need::kRequired);
             DeclareRemap(arguments, &options->remap);
+            arguments.Option("--calibration", &options->calibration,
+                             "Calibration file, whose pressure sensors correct the pressures that "
+                             "were read; nothing else of it is used");
             arguments.Option("--out FOLDER", &options->out,
                              "Folder of verdict.json, report.html and robot.extended.yaml",
                              app::Need::kRequired);

@@ -15,6 +15,7 @@ struct DiagnoseOptions {
   std::filesystem::path robot;
   std::filesystem::path data;          ///< experiment folder, or recorded messages
   std::vector<std::string> remap;      ///< FROM:=TO, of recorded messages
+  std::filesystem::path calibration;   ///< whose pressure sensors correct readings; empty: none
   std::filesystem::path out;           ///< folder, made where it is not there
   std::vector<std::string> exclude;    ///< ids of causes, each element one or more ("a,b")
   std::string explain;                 ///< id of a cause; empty: none

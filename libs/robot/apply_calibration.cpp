@@ -162,6 +162,12 @@ Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& mo
     return Foreign("the calibration holds the actuator of cable '" + drive.cable +
                    "', which the robot file does not have" + DidYouMean(drive.cable, cables));
   }
+  const std::vector<std::string> chambers = model.ChamberNames();
+  for (const CalibratedPressureSensor& sensor : calibration.pressure_sensors) {
+    if (IndexOf(chambers, sensor.chamber)) continue;
+    return Foreign("the calibration holds the pressure sensor of chamber '" + sensor.chamber +
+                   "', which the robot file does not have" + DidYouMean(sensor.chamber, chambers));
+  }
   return Status::Ok();
 }
 

@@ -215,18 +215,18 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
   }
   calibration.cameras = ReadItems(&map, "cameras", ReadCamera);
   calibration.drives = ReadItems(&map, "drives", ReadDrive);
+  calibration.pressure_sensors = ReadItems(&map, "pressure_sensors", ReadPressureSensor);
   if (const ConfigNode* scale = map.Optional("geometry_scale")) {
     calibration.geometry_scale = ReadGeometryScale(*scale);
   }
   calibration.cable_routes = ReadItems(&map, "cable_routes", ReadCableRoute);
   calibration.undetermined = ReadItems(&map, "undetermined", ReadUndetermined);
   if (calibration.moduli.empty() && calibration.poissons_ratios.empty() && !calibration.gravity &&
-      !calibration.pose && calibration.drives.empty() && !calibration.geometry_scale &&
-      calibration.cable_routes.empty()) {
-    Refuse(
-        root,
-        "must hold moduli, poissons_ratios, gravity_m_s2, T_robot_camera, drives, geometry_scale "
-        "or cable_routes: what was calibrated");
+      !calibration.pose && calibration.drives.empty() && calibration.pressure_sensors.empty() &&
+      !calibration.geometry_scale && calibration.cable_routes.empty()) {
+    Refuse(root,
+           "must hold moduli, poissons_ratios, gravity_m_s2, T_robot_camera, drives, "
+           "pressure_sensors, geometry_scale or cable_routes: what was calibrated");
   }
   map.Read("residual_rms_m", &calibration.residual_rms_m);
   map.Read("chi_squared", &calibration.chi_squared);
@@ -256,6 +256,7 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   if (calibration.depth_bias) text += FormatDepthBias(*calibration.depth_bias);
   text += FormatCameras(calibration.cameras);
   text += FormatDrives(calibration.drives);
+  text += FormatPressureSensors(calibration.pressure_sensors);
   text += FormatGeometry(calibration.geometry_scale, calibration.cable_routes);
   text += FormatUndetermined(calibration.undetermined);
   text += "residual_rms_m: " + FormatNumber(calibration.residual_rms_m) + "\n";

@@ -14,6 +14,7 @@
 #include "libs/core/status.hpp"
 #include "libs/robot/calibrated_depth_bias.hpp"
 #include "libs/robot/calibrated_geometry.hpp"
+#include "libs/robot/calibrated_pressure_sensor.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::robot {
@@ -92,6 +93,7 @@ struct CalibrationFile {
   std::optional<CalibratedDepthBias> depth_bias;  ///< only where there is a pose
   std::vector<CalibratedCamera> cameras;          ///< beside the first, by name
   std::vector<CalibratedDrive> drives;
+  std::vector<CalibratedPressureSensor> pressure_sensors;
   std::optional<CalibratedScale> geometry_scale;  ///< absent: as large as the robot file says
   std::vector<CalibratedRoute> cable_routes;
   std::vector<Undetermined> undetermined;
@@ -123,7 +125,8 @@ void ApplyGeometry(const CalibrationFile& calibration, RobotBody* body);
 Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model);
 
 /// Applies the calibrated moduli, Poisson's ratios, gravity, actuators and pull points to the
-/// model. The caller applies the camera pose. Throws InputError where CheckCalibration is not ok.
+/// model. The caller applies the camera pose, and the pressure sensors to their readings. Throws
+/// InputError where CheckCalibration is not ok.
 void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model);
 
 /// Largest relative standard error of the moduli; 0 without moduli.

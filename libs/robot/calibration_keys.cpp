@@ -7,6 +7,7 @@
 #include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibrated_depth_bias.hpp"
 #include "libs/robot/calibrated_geometry.hpp"
+#include "libs/robot/calibrated_pressure_sensor.hpp"
 
 namespace palpate::robot {
 
@@ -99,7 +100,7 @@ const KeyTable& CalibrationFileKeys() {
       .about =
           "What `palpate calibrate` writes, and `palpate estimate` and the processes read. "
           "At least one of `moduli`, `poissons_ratios`, `gravity_m_s2`, `T_robot_camera`, "
-          "`drives`, `geometry_scale` and `cable_routes` is there.",
+          "`drives`, `pressure_sensors`, `geometry_scale` and `cable_routes` is there.",
       .keys = {{"robot", value::Text(), kRequired, "Name of the robot."},
                {"mesh_hash", value::Text(), kRequired,
                 "Hash of mesh and element. Another mesh is refused: moduli hold for one mesh."},
@@ -133,6 +134,8 @@ const KeyTable& CalibrationFileKeys() {
                 "Depth cameras beside the first one."},
                {"drives", value::ListOfMaps(ActuatorKeys()), kOptional,
                 "Offset and gain of the actuators."},
+               {"pressure_sensors", value::ListOfMaps(PressureSensorKeys()), kOptional,
+                "Zero and gain of the pressure sensors of chambers. Absent: readings hold."},
                {"geometry_scale", value::Map(GeometryScaleKeys()), kOptional,
                 "Size of the robot. Absent: as in the robot file."},
                {"cable_routes", value::ListOfMaps(CableRouteKeys()), kOptional,

@@ -17,6 +17,7 @@
 #include "components/force_estimation/recording_frames.hpp"
 #include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/offline/forces/force_replay.hpp"
+#include "components/offline/forces/pressure_correction.hpp"
 #include "libs/app/settings.hpp"
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
@@ -71,6 +72,19 @@ class MarkerEstimator {
 
   const RobotPtr& robot() const { return robot_; }
 
+  /// What the calibrated pressure sensors read, as the chambers have it.
+  std::vector<std::optional<double>> CorrectedForces(
+      std::vector<std::optional<double>> forces) const {
+    for (std::size_t c = 0; c < forces.size(); ++c) {
+      for (const auto& sensor : robot_->calibration().pressure_sensors) {
+        if (forces[c] && sensor.chamber == robot_->cable_names()[c]) {
+          forces[c] = sensor.Pressure_Pa(*forces[c]);
+        }
+      }
+    }
+    return forces;
+  }
+
   MarkerFrame FrameOf(double t_s, const DoubleArray& markers_m, const CableValues& displacement_m,
                       const CableValues& tension_N, double sigma_m, const std::string& reference,
                       const std::string& cable_input) const {
@@ -79,7 +93,7 @@ class MarkerEstimator {
     frame.reference = ReadReference(reference);
     ReadMarkers(markers_m, sigma_m, &frame);
     const auto displacements = robot_->ReadCables(displacement_m, "displacement_m");
-    const auto tensions = robot_->ReadCables(tension_N, "tension_N");
+    const auto tensions = CorrectedForces(robot_->ReadCables(tension_N, "tension_N"));
     const robot::CableInput preferred = ReadCableInput(cable_input);
     for (std::size_t c = 0; c < displacements.size(); ++c) {
       if (!robot_->traits(c).IsChamber() && tensions[c] && *tensions[c] < 0.0) {
@@ -131,10 +145,11 @@ std::vector<MarkerFrame> FramesOf(const Recording& recording, const RobotPtr& ro
                                   const std::string& cable_input) {
   experiment::Experiment experiment = recording.experiment();
   offline::TakePoses(robot->calibration(), &experiment);
+  experiment::Recording corrected = recording.data();
+  offline::CorrectPressures(robot->calibration(), &corrected);
   const robot::CableInput preferred = ReadCableInput(cable_input);
   return robot->Use([&](const robot::RobotModel& model) {
-    auto frames =
-        force_estimation::FramesOfRecording(experiment, recording.data(), model, preferred);
+    auto frames = force_estimation::FramesOfRecording(experiment, corrected, model, preferred);
     for (MarkerFrame& frame : frames) {
       frame.loads = force_estimation::SitesOfLoads(recording.data().loads, frame.t_s);
     }

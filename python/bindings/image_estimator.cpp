@@ -20,6 +20,7 @@
 #include "components/force_estimation/recording_frames.hpp"
 #include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/offline/forces/force_replay.hpp"
+#include "components/offline/forces/pressure_correction.hpp"
 #include "components/offline/forces/shape_stream.hpp"
 #include "libs/app/settings.hpp"
 #include "libs/core/clock.hpp"
@@ -100,6 +101,8 @@ class ImageEstimator {
                  const std::optional<DoubleArray>& T_robot_camera, const RecordingPtr& recording,
                  offline::BiasFrom bias, const py::kwargs& keywords)
       : robot_(robot), camera_(camera), recording_(recording) {
+    if (recording) corrected_ = recording->data();
+    offline::CorrectPressures(robot->calibration(), &corrected_);
     const experiment::Experiment experiment = ExperimentOf(*robot, recording.get(), T_robot_camera);
     const Eigen::Isometry3d pose = PoseIn(experiment, recording.get(), T_robot_camera.has_value());
     offline::ForceSettings settings = offline::DefaultForceSettings(experiment, true);
@@ -178,7 +181,7 @@ class ImageEstimator {
     if (is_given || !recording_) {
       inputs.cables = CommandsOf(*robot_, displacement_m, tension_N, preferred);
     } else {
-      inputs.cables = force_estimation::CablesAt(recording_->data(), *model_, preferred, t_s);
+      inputs.cables = force_estimation::CablesAt(corrected_, *model_, preferred, t_s);
     }
     if (recording_) inputs.loads = force_estimation::SitesOfLoads(recording_->data().loads, t_s);
     return inputs;
@@ -193,6 +196,7 @@ class ImageEstimator {
   RobotPtr robot_;
   rgbd::RgbdCamera camera_;
   RecordingPtr recording_;
+  experiment::Recording corrected_;  ///< with the pressures of the chambers; empty: none is given
   std::unique_ptr<robot::RobotModel> model_;
   std::optional<offline::ShapeStream> stream_;
   rgbd::RgbdFrame frame_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "components/offline/forces/force_replay.hpp"
+#include "components/offline/forces/pressure_correction.hpp"
 #include "libs/app/settings.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/clock.hpp"
@@ -81,6 +82,7 @@ class Replay {
               model, {.solver = settings.forces.solver, .threads = settings.forces.threads});
         })) {
     offline::TakePoses(robot_.calibration(), &experiment_);
+    offline::CorrectPressures(robot_.calibration(), &experiment_);
     std::vector<const experiment::Recording*> wanted;
     for (const std::size_t index : IndicesOf(recordings)) {
       wanted.push_back(&experiment_.recordings[index]);

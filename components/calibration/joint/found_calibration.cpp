@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 #include "components/calibration/joint/route_unknowns.hpp"
 #include "libs/core/index.hpp"
@@ -106,6 +107,25 @@ void TakeActuators(const JointCalibration& fit, const robot::RobotModel& model,
   }
 }
 
+/// Nothing where it was not asked for, or not determined.
+std::optional<robot::CalibratedNumber> FoundNumber(const JointCalibration& fit,
+                                                   const std::string& name) {
+  const FittedValue* value = FindValue(fit, name);
+  if (value == nullptr || !value->determined) return std::nullopt;
+  return robot::CalibratedNumber{value->value, value->standard_error};
+}
+
+void TakePressureSensors(const JointCalibration& fit, const robot::RobotModel& model,
+                         robot::CalibrationFile* file) {
+  for (const std::string& chamber : model.ChamberNames()) {
+    const robot::CalibratedPressureSensor sensor{
+        .chamber = chamber,
+        .zero_Pa = FoundNumber(fit, "pressure_zero:" + chamber),
+        .gain = FoundNumber(fit, "pressure_gain:" + chamber)};
+    if (sensor.zero_Pa || sensor.gain) file->pressure_sensors.push_back(sensor);
+  }
+}
+
 void TakeMaterials(const JointCalibration& fit, const std::vector<std::string>& parts,
                    robot::CalibrationFile* file) {
   for (const std::string& part : parts) {
@@ -175,6 +195,7 @@ void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
              robot::CalibrationFile* file) {
   if (!fit.pose_covariance.isZero()) TakePose(fit, file);
   TakeActuators(fit, model, file);
+  TakePressureSensors(fit, model, file);
   TakeMaterials(fit, PartNames(model.body()), file);
   TakeGravity(fit, model.gravity_m_s2(), file);
   TakeGeometry(fit, model.body(), file);

@@ -12,6 +12,7 @@
 
 #include "components/calibration/joint/model_snapshot.hpp"
 #include "components/calibration/joint/models_like.hpp"
+#include "components/calibration/joint/pressure_unknowns.hpp"
 #include "components/calibration/joint/route_unknowns.hpp"
 #include "components/calibration/size_comparison.hpp"
 #include "libs/core/index.hpp"
@@ -33,6 +34,7 @@ struct JointRequestTuning {
   /// more saves equilibria, and risks a mirrored start.
   double clearly_not_mirrored = 0.5;
   double first_tension_N = 0.5;  ///< initial value of an unknown tension: taut, and far from limits
+  double least_gain = -0.9;      ///< of a pressure sensor: above -1, where it reads nothing
   double least_poissons_ratio = 0.0;
   double most_poissons_ratio = 0.4999;  ///< below 0.5, where the volume is fixed
 };
@@ -101,10 +103,11 @@ Status FindModelStart(robot::RobotModel& model, JointSetup* setup) {
   return Status::Ok();
 }
 
-/// An unknown tension, or thrust of a chamber, for each actuator without an input in a frame.
+/// An unknown tension for each cable without an input in a frame. A chamber without one is open to
+/// the air.
 void AddInputs(const robot::RobotModel& model, JointSetup* setup) {
   for (std::size_t f = 0; f < setup->frames.size(); ++f) {
-    for (int c = 0; c < model.ActuatorCount(); ++c) {
+    for (int c = 0; c < model.CableCount(); ++c) {
       const auto cable = static_cast<size_t>(c);
       robot::ActuatorCommand& command = setup->frames[f].cables[cable];
       if (command.kind != Kind::kNone) continue;
@@ -139,6 +142,43 @@ void AddActuators(const robot::RobotModel& model, const JointRequest& request, J
       const double sigma = request.actuator_gain_sigma;
       setup->unknowns.push_back(
           CommandGain(c, name, std::move(measured), {.sigma = sigma, .plausible = sigma}));
+    }
+  }
+}
+
+/// Which of both the gain of a pressure sensor lacks: without a known force a softer body and a
+/// larger pressure are one.
+std::string WhatTellsGain(const JointRequest& request) {
+  return request.moduli.empty()
+             ? "recordings with markers or images of the part that this chamber moves, at larger "
+               "pressures"
+             : "a recording with a known load, or a calibration with --what camera and a modulus "
+               "that is known: without one of both, gain and Young's modulus have the same effect";
+}
+
+/// Of chambers whose pressure is read in a frame.
+void AddPressureSensors(const robot::RobotModel& model, const JointRequest& request,
+                        JointSetup* setup) {
+  for (int c = model.CableCount(); c < model.ActuatorCount(); ++c) {
+    const robot::ActuatorTraits& chamber = model.traits(c);
+    std::vector<double> read_N;
+    bool is_read = false;
+    for (const CalibrationFrame& frame : setup->frames) {
+      const robot::ActuatorCommand& command = frame.cables[At(c)];
+      const bool by_pressure = command.kind == Kind::kTension;
+      is_read = is_read || by_pressure;
+      read_N.push_back(by_pressure ? command.value : 0.0);
+    }
+    if (!is_read) continue;
+    if (const double sigma_Pa = request.pressure_zero_sigma_Pa; sigma_Pa > 0.0) {
+      setup->unknowns.push_back(PressureZero(c, chamber.name, chamber.area_m2,
+                                             {.sigma = sigma_Pa, .plausible = sigma_Pa}));
+    }
+    if (const double sigma = request.pressure_gain_sigma; sigma > 0.0) {
+      setup->unknowns.push_back(
+          PressureGain(c, chamber.name, std::move(read_N),
+                       {.sigma = sigma, .lower = kRequestTuning.least_gain, .plausible = sigma},
+                       WhatTellsGain(request)));
     }
   }
 }
@@ -260,6 +300,10 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
                                            FormatNumber(request.cable_eyelet_sigma_m) +
                                            " m: build its body with eyelet room"};
   }
+  if (request.geometry_scale_sigma > 0.0 && model.ChamberCount() > 0) {
+    return {StatusCode::kInvalidInput,
+            "the size of a robot with chambers is not estimated: leave its prior out"};
+  }
   AddInputs(model, setup);
   const int threads = std::min(request.threads, static_cast<int>(setup->frames.size()));
   setup->helpers = ModelsLike(model, std::max(0, threads - 1));
@@ -269,6 +313,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
     if (Status status = FindModelStart(model, setup); !status.ok()) return status;
   }
   AddActuators(model, request, setup);
+  AddPressureSensors(model, request, setup);
   AddModuli(model, request, setup);
   AddPoissonsRatios(model, request, setup);
   AddWeight(model, request, setup);

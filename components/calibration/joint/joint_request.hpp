@@ -22,6 +22,10 @@ struct JointRequest {
   double actuator_offset_sigma_m = 2e-3;
   bool actuator_gains = false;
   double actuator_gain_sigma = 0.05;
+  /// Prior standard deviations of zero and gain of the pressure sensor of each chamber that has a
+  /// reading; 0: not estimated.
+  double pressure_zero_sigma_Pa = 500.0;
+  double pressure_gain_sigma = 0.05;
   std::vector<int> moduli = {};  ///< RobotBody::materials whose Young's modulus is estimated
   double modulus_relative_sigma = 0.5;
   /// Prior standard deviations of Poisson's ratio of the same materials, of gravity's direction and
@@ -58,7 +62,8 @@ struct JointRequest {
 /// markers with those of the undeformed body, or from `pose_prior` where markers cannot be
 /// registered. Where a mirror image fits nearly as well, that body
 /// is replaced by the equilibria under the frames' inputs. A cable without a recorded input has an
-/// unknown tension in each frame. Not ok where the markers determine no pose (too few, collinear,
+/// unknown tension in each frame; such a chamber is open to the air. Not ok where the size of a
+/// robot with chambers is to be estimated, the markers determine no pose (too few, collinear,
 /// mirrored), or such an equilibrium is not reached.
 Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                       const geometry::RigidTransform* T_robot_camera, const JointRequest& request,

@@ -54,8 +54,9 @@ CalibrationFrame ReferenceFrame(const experiment::Experiment& experiment,
       .name = recording.name + " (reference)",
       .markers = Sightings(experiment, recording, model, reference.window_s, 0.0)};
   if (reference.shape == experiment::ReferenceShape::kUndeformed) {
-    const auto cables = static_cast<std::size_t>(model.ActuatorCount());
+    const auto cables = static_cast<std::size_t>(model.CableCount());
     frame.cables.assign(cables, {robot::ActuatorCommand::Kind::kTension, 0.0});
+    frame.cables.resize(static_cast<std::size_t>(model.ActuatorCount()));  // open to the air
     return frame;
   }
   const double middle_s = 0.5 * (reference.window_s.begin_s + reference.window_s.end_s);

@@ -13,10 +13,24 @@ namespace {
 
 using Kind = robot::ActuatorCommand::Kind;
 
+/// Thrusts that were read, as the chambers have them.
+void CorrectThrusts(const std::vector<robot::CalibratedPressureSensor>& sensors,
+                    const robot::RobotModel& model, std::vector<robot::ActuatorCommand>* commands) {
+  for (int a = model.CableCount(); a < model.ActuatorCount(); ++a) {
+    const robot::ActuatorTraits& chamber = model.traits(a);
+    robot::ActuatorCommand& command = commands->at(At(a));
+    for (const robot::CalibratedPressureSensor& sensor : sensors) {
+      if (sensor.chamber != chamber.name || command.kind != Kind::kTension) continue;
+      command.value = chamber.Force_N(sensor.Pressure_Pa(chamber.ReportedForce(command.value)));
+    }
+  }
+}
+
 template <typename Frame>
-void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
-               Frame* frame) {
+void ReadFrame(const robot::CalibrationFile& before, const robot::RobotModel& model, Frame* frame) {
+  const std::vector<std::string> cable_names = model.ActuatorNames();
   if (before.gravity) frame->gravity_m_s2 = before.gravity->gravity_m_s2;
+  CorrectThrusts(before.pressure_sensors, model, &frame->cables);
   for (const robot::CalibratedDrive& actuator : before.drives) {
     const auto name = std::find(cable_names.begin(), cable_names.end(), actuator.cable);
     if (name == cable_names.end()) continue;
@@ -52,19 +66,19 @@ robot::CalibratedDrive Compose(const robot::CalibratedDrive& before,
 
 }  // namespace
 
-void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel& model,
                   std::vector<CloudFrame>* frames) {
-  for (auto& frame : *frames) ReadFrame(before, cable_names, &frame);
+  for (auto& frame : *frames) ReadFrame(before, model, &frame);
 }
 
-void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel& model,
                   std::vector<CalibrationFrame>* frames) {
-  for (auto& frame : *frames) ReadFrame(before, cable_names, &frame);
+  for (auto& frame : *frames) ReadFrame(before, model, &frame);
 }
 
-void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel& model,
                   std::vector<UnlabelledFrame>* frames) {
-  for (UnlabelledFrame& frame : *frames) ReadFrame(before, cable_names, &frame.frame);
+  for (UnlabelledFrame& frame : *frames) ReadFrame(before, model, &frame.frame);
 }
 
 void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
@@ -93,6 +107,16 @@ void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile
       file->drives.push_back(actuator);
     } else {
       *found = Compose(actuator, *found);
+    }
+  }
+  for (const robot::CalibratedPressureSensor& sensor : before.pressure_sensors) {
+    const auto found =
+        std::find_if(file->pressure_sensors.begin(), file->pressure_sensors.end(),
+                     [&](const auto& other) { return other.chamber == sensor.chamber; });
+    if (found == file->pressure_sensors.end()) {
+      file->pressure_sensors.push_back(sensor);
+    } else {
+      *found = robot::Compose(sensor, *found);
     }
   }
 }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "components/calibration/cloud/cloud_frame.hpp"
@@ -13,18 +12,18 @@
 
 namespace palpate::calibration {
 
-/// Applies an earlier calibration to frames: gravity, and displacements corrected by its actuators.
-/// `cable_names`: in the order of the frames' cables.
-void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+/// Applies an earlier calibration to frames of this model: gravity, displacements corrected by its
+/// actuators, and pressures corrected by its sensors.
+void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel& model,
                   std::vector<CloudFrame>* frames);
-void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel& model,
                   std::vector<CalibrationFrame>* frames);
-void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel& model,
                   std::vector<UnlabelledFrame>* frames);
 
 /// Adds to `file`, estimated from such frames, what it did not estimate again: moduli, Poisson's
-/// ratios, gravity, size, cable routes and pose. Its actuators correct the earlier correction; they
-/// are composed with it, so that they apply to measured displacements.
+/// ratios, gravity, size, cable routes and pose. Its actuators and pressure sensors correct the
+/// earlier correction; they are composed with it, so that they apply to what is measured.
 void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file);
 
 }  // namespace palpate::calibration

@@ -95,11 +95,11 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
   if (job.before) {
     result.status = robot::CheckCalibration(*job.before, model);
     if (!result.status.ok()) return result;
-    ReadAsBefore(*job.before, model.ActuatorNames(), &read.clouds);
-    ReadAsBefore(*job.before, model.ActuatorNames(), &read.markers);
-    ReadAsBefore(*job.before, model.ActuatorNames(), &read.points);
+    ReadAsBefore(*job.before, model, &read.clouds);
+    ReadAsBefore(*job.before, model, &read.markers);
+    ReadAsBefore(*job.before, model, &read.points);
     robot::CalibrationFile body = *job.before;
-    body.drives.clear();  // already applied to the frames
+    body.drives.clear();  // already applied to the frames, as the pressure sensors
     robot::ApplyCalibration(body, &model);
   }
   const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();

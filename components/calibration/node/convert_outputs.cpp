@@ -91,6 +91,23 @@ void SetGeometry(const robot::CalibrationFile& file, idl::palpate_msgs::Calibrat
   }
 }
 
+void SetPressureSensors(const robot::CalibrationFile& file,
+                        idl::palpate_msgs::Calibration* message) {
+  const robot::CalibratedNumber none;
+  dds::Resize(message->pressure_sensors, file.pressure_sensors.size());
+  for (std::size_t k = 0; k < file.pressure_sensors.size(); ++k) {
+    const robot::CalibratedPressureSensor& found = file.pressure_sensors[k];
+    auto& sensor = message->pressure_sensors._buffer[k];
+    dds::SetText(sensor.chamber, found.chamber);
+    sensor.has_zero = found.zero_Pa.has_value();
+    sensor.zero_pa = found.zero_Pa.value_or(none).value;
+    sensor.zero_standard_error_pa = found.zero_Pa.value_or(none).standard_error;
+    sensor.has_gain = found.gain.has_value();
+    sensor.gain = found.gain.value_or(none).value;
+    sensor.gain_standard_error = found.gain.value_or(none).standard_error;
+  }
+}
+
 void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
   dds::Resize(message->drives, file.drives.size());
   for (std::size_t k = 0; k < file.drives.size(); ++k) {
@@ -101,6 +118,7 @@ void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Cali
     actuator.gain = file.drives[k].drive.gain;
     actuator.gain_standard_error = file.drives[k].standard_error.gain;
   }
+  SetPressureSensors(file, message);
   SetDepthBias(file, message);
   SetMaterials(file, message);
   SetGeometry(file, message);

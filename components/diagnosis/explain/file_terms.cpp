@@ -17,10 +17,10 @@ namespace {
 /// The numbers that faults change, in the units in which people read them.
 class ValuesInFiles {
  public:
-  ValuesInFiles(const robot::RobotDescription& robot,
-                const std::vector<robot::CalibratedDrive>& drives) {
+  ValuesInFiles(const robot::RobotDescription& robot, const robot::CalibrationFile& calibration) {
     constexpr double kKilo = 1e-3;
     constexpr double kMilli = 1e3;
+    const std::vector<robot::CalibratedDrive>& drives = calibration.drives;
     Add("E of the body", "kPa", kKilo * robot.material.youngs_modulus_Pa);
     Add("Poisson's ratio of the body", "", robot.material.poissons_ratio);
     if (robot.mass.density_kg_m3) Add("density of the body", "kg/m³", *robot.mass.density_kg_m3);
@@ -53,11 +53,25 @@ class ValuesInFiles {
       Add("gain of the actuator" + of, "", 1.0 + (known ? drive->drive.gain : 0.0));
       Add("zero offset of the actuator" + of, "mm", known ? kMilli * drive->drive.offset_m : 0.0);
     }
+    for (const robot::ChamberSettings& chamber : robot.chambers) {
+      AddPressureSensor(chamber.name, calibration.pressure_sensors);
+    }
   }
 
   const std::vector<ChangedValue>& all() const { return all_; }
 
  private:
+  void AddPressureSensor(const std::string& chamber,
+                         const std::vector<robot::CalibratedPressureSensor>& sensors) {
+    const auto sensor = std::find_if(sensors.begin(), sensors.end(),
+                                     [&](const auto& one) { return one.chamber == chamber; });
+    const robot::CalibratedNumber none;
+    const bool known = sensor != sensors.end();
+    const std::string of = " of the pressure sensor of chamber `" + chamber + "`";
+    Add("gain" + of, "", 1.0 + (known ? sensor->gain.value_or(none).value : 0.0));
+    Add("zero" + of, "Pa", known ? sensor->zero_Pa.value_or(none).value : 0.0);
+  }
+
   void Add(std::string words, std::string unit, double value) {
     all_.push_back({.words = std::move(words), .unit = std::move(unit), .before = value});
   }
@@ -69,9 +83,9 @@ class ValuesInFiles {
 std::optional<std::vector<ChangedValue>> ValuesWith(const FaultModel& fault,
                                                     const Eigen::VectorXd& z,
                                                     robot::RobotDescription robot) {
-  std::vector<robot::CalibratedDrive> drives;
-  if (!fault.Extend(z, &robot, &drives)) return std::nullopt;
-  return ValuesInFiles(robot, drives).all();
+  robot::CalibrationFile calibration;
+  if (!fault.Extend(z, &robot, &calibration)) return std::nullopt;
+  return ValuesInFiles(robot, calibration).all();
 }
 
 }  // namespace

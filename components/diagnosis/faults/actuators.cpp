@@ -27,8 +27,9 @@ class CableGainFault final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
-              std::vector<robot::CalibratedDrive>* drives) const override {
-    DriveOf(name().where.front().substr(std::string("cable:").size()), drives).drive.gain += z[0];
+              robot::CalibrationFile* calibration) const override {
+    DriveOf(name().where.front().substr(std::string("cable:").size()), calibration).drive.gain +=
+        z[0];
     return true;
   }
 
@@ -61,9 +62,9 @@ class CableOffsetFault final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
-              std::vector<robot::CalibratedDrive>* drives) const override {
-    DriveOf(name().where.front().substr(std::string("cable:").size()), drives).drive.offset_m +=
-        z[0];
+              robot::CalibrationFile* calibration) const override {
+    DriveOf(name().where.front().substr(std::string("cable:").size()), calibration)
+        .drive.offset_m += z[0];
     return true;
   }
 
@@ -98,7 +99,7 @@ class Backlash final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     double& play_m = robot->cables[At(index_)].play_m;
     play_m = std::max(0.0, play_m + z[0]);
     return true;

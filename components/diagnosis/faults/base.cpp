@@ -63,7 +63,7 @@ class GravityDirection final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->gravity_m_s2 = TiltError(z.head<2>()).transpose() * robot->gravity_m_s2;
     return true;
   }

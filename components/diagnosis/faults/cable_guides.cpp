@@ -44,7 +44,7 @@ class CableGuides final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     Eigen::Matrix3Xd& path_m = robot->cables[At(index_)].path_m;
     path_m.rightCols(path_m.cols() - 1).colwise() += Eigen::Vector3d(z);
     return true;

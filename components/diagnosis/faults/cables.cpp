@@ -28,7 +28,7 @@ class CableFrictionFault final : public FaultModel {
   bool NeedsSimulation(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->cables[At(index_)].friction_coefficient += z[0];
     return true;
   }
@@ -121,7 +121,7 @@ class CableRouting final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->cables[At(index_)].path_m.col(0) += z;
     return true;
   }
@@ -181,7 +181,7 @@ class SwappedCables final : public FaultModel {
 
   /// Each actuator keeps its name and its limits, and pulls what the other one pulled.
   bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot::CableSettings& a = robot->cables[At(a_)];
     robot::CableSettings& b = robot->cables[At(b_)];
     std::swap(a.path_m, b.path_m);

@@ -53,7 +53,7 @@ class Discretisation final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     *robot = OnFinerMesh(std::move(*robot));
     return true;
   }

@@ -32,7 +32,7 @@ class YoungsModulusFault final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->material.youngs_modulus_Pa *= std::exp(z[0]);
     for (robot::RegionSettings& region : robot->regions) {
       if (region.youngs_modulus_Pa) *region.youngs_modulus_Pa *= std::exp(z[0]);
@@ -75,7 +75,7 @@ class RegionalStiffness final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot::RegionSettings& region = robot->regions[static_cast<std::size_t>(material_) - 1];
     region.youngs_modulus_Pa =
         region.youngs_modulus_Pa.value_or(robot->material.youngs_modulus_Pa) * std::exp(z[0]);
@@ -123,7 +123,7 @@ class PoissonsRatioFault final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->material.poissons_ratio += z[0];
     return true;
   }
@@ -170,7 +170,7 @@ class Stiffening final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->material.model = fem::MaterialModel::kYeoh;
     robot->material.c20_over_c10 = z[0];
     robot->material.c30_over_c10 = 0.0;
@@ -266,7 +266,7 @@ class Density final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     if (robot->mass.density_kg_m3) *robot->mass.density_kg_m3 *= std::exp(z[0]);
     if (robot->mass.total_kg) *robot->mass.total_kg *= std::exp(z[0]);
     return true;

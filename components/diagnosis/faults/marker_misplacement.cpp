@@ -32,7 +32,7 @@ class MarkerMisplacement final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     robot->markers[At(index_)].position_m += z;
     return true;
   }

@@ -44,7 +44,7 @@ class Mullins final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     if (z[0] > 0.0) {
       robot->softening = fem::MullinsLaw{.r = std::max(kLeastR, 1.0 / InverseR(z)),
                                          .m_J_m3 = parameters()[1].ValueOf(z[1])};

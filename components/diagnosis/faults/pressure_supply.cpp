@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "components/diagnosis/faults/makers.hpp"
@@ -33,6 +35,12 @@ std::vector<Supplied> SuppliedChambers(const CatalogueInputs& inputs) {
   return supplied;
 }
 
+/// The files have no standard errors: the verdict has them.
+void AddTo(std::optional<robot::CalibratedNumber>* number, double z) {
+  if (!*number) number->emplace();
+  (*number)->value += z;
+}
+
 /// Data sheets have 0.25 to 1 % of the reading.
 class PressureGainFault final : public FaultModel {
  public:
@@ -40,15 +48,23 @@ class PressureGainFault final : public FaultModel {
       : FaultModel(
             at.Named("pressure_gain"), "gain of the pressure sensor of chamber " + at.chamber.name,
             {{.name = "g", .tolerance = 0.01, .fault = 0.15, .least = -0.9, .plausible = 0.5}}),
-        actuator_(at.actuator) {}
+        actuator_(at.actuator),
+        chamber_(at.chamber.name) {}
 
   bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     hypothesis->actuators.gain[actuator_] += z[0];
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
+              robot::CalibrationFile* calibration) const override {
+    AddTo(&PressureSensorOf(chamber_, calibration).gain, z[0]);
+    return true;
+  }
+
  private:
   Eigen::Index actuator_;
+  std::string chamber_;
 };
 
 class PressureZeroFault final : public FaultModel {
@@ -63,16 +79,24 @@ class PressureZeroFault final : public FaultModel {
                      .tolerance = 100.0,
                      .fault = std::max(300.0, kFault * at.chamber.max_pressure_Pa)}}),
         actuator_(at.actuator),
-        area_m2_(at.area_m2) {}
+        area_m2_(at.area_m2),
+        chamber_(at.chamber.name) {}
 
   bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     hypothesis->actuators.pressure_zero_N[actuator_] += z[0] * area_m2_;
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
+              robot::CalibrationFile* calibration) const override {
+    AddTo(&PressureSensorOf(chamber_, calibration).zero_Pa, z[0]);
+    return true;
+  }
+
  private:
   Eigen::Index actuator_;
   double area_m2_;
+  std::string chamber_;
 };
 
 class SlowValve final : public FaultModel {
@@ -165,7 +189,7 @@ class SwappedTubes final : public FaultModel {
 
   /// Each supply by the chamber that it feeds.
   bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     const auto named = [&](const std::string& name) -> robot::ChamberSettings& {
       return *std::find_if(robot->chambers.begin(), robot->chambers.end(),
                            [&](const auto& chamber) { return chamber.name == name; });

@@ -28,7 +28,7 @@ class ViscoelasticCreep final : public FaultModel {
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+              robot::CalibrationFile* /*calibration*/) const override {
     if (z[0] > 0.0) robot->creep.push_back({.g = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
     return true;
   }

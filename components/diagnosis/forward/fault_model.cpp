@@ -32,17 +32,25 @@ std::vector<FittedParameter> FaultModel::Report(const Eigen::VectorXd& z,
 }
 
 bool FaultModel::Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* /*robot*/,
-                        std::vector<robot::CalibratedDrive>* /*drives*/) const {
+                        robot::CalibrationFile* /*calibration*/) const {
   return false;
 }
 
-robot::CalibratedDrive& DriveOf(const std::string& cable,
-                                std::vector<robot::CalibratedDrive>* drives) {
-  for (robot::CalibratedDrive& drive : *drives) {
+robot::CalibratedDrive& DriveOf(const std::string& cable, robot::CalibrationFile* calibration) {
+  for (robot::CalibratedDrive& drive : calibration->drives) {
     if (drive.cable == cable) return drive;
   }
-  return drives->emplace_back(
+  return calibration->drives.emplace_back(
       robot::CalibratedDrive{.cable = cable, .drive = {}, .standard_error = {}});
+}
+
+robot::CalibratedPressureSensor& PressureSensorOf(const std::string& chamber,
+                                                  robot::CalibrationFile* calibration) {
+  for (robot::CalibratedPressureSensor& sensor : calibration->pressure_sensors) {
+    if (sensor.chamber == chamber) return sensor;
+  }
+  return calibration->pressure_sensors.emplace_back(
+      robot::CalibratedPressureSensor{.chamber = chamber, .zero_Pa = {}, .gain = {}});
 }
 
 FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,

@@ -124,10 +124,10 @@ class FaultModel {
 
   /// `z` [parameters].
   virtual void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const = 0;
-  /// Writes `z` into the robot file, or the actuators of a calibration; false where neither can say
-  /// it.
+  /// Writes `z` into the robot file, or the actuators and pressure sensors of a calibration; false
+  /// where neither can say it.
   virtual bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
-                      std::vector<robot::CalibratedDrive>* drives) const;
+                      robot::CalibrationFile* calibration) const;
   /// Where what it does has kinks a linear model says little: then the most probable faults of its
   /// name are simulated before one stands for all, of those with the same number here only one.
   virtual std::optional<int> Start() const { return std::nullopt; }
@@ -168,8 +168,10 @@ class FaultModel {
 };
 
 /// The actuator of a cable in a calibration, added where it is not there.
-robot::CalibratedDrive& DriveOf(const std::string& cable,
-                                std::vector<robot::CalibratedDrive>* drives);
+robot::CalibratedDrive& DriveOf(const std::string& cable, robot::CalibrationFile* calibration);
+/// The same of the pressure sensor of a chamber.
+robot::CalibratedPressureSensor& PressureSensorOf(const std::string& chamber,
+                                                  robot::CalibrationFile* calibration);
 
 /// Of parameters that are the components of a vector, its length.
 FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,

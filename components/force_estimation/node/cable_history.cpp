@@ -80,8 +80,9 @@ std::vector<robot::ActuatorCommand> CableHistory::Commands(const CableReading& b
     const auto& second = after.cables[i];
     auto displacement_m = Between(first.displacement_m, second.displacement_m, share);
     if (displacement_m) displacement_m = drives_[i].TakenIn_m(*displacement_m);
-    commands.push_back(robot::ChooseCommand(
-        displacement_m, Between(first.tension_N, second.tension_N, share), preferred_));
+    auto force_N = Between(first.tension_N, second.tension_N, share);
+    if (force_N) force_N = forces_[i].Force_N(*force_N);
+    commands.push_back(robot::ChooseCommand(displacement_m, force_N, preferred_));
   }
   return commands;
 }

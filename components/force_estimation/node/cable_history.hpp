@@ -15,14 +15,27 @@
 
 namespace palpate::force_estimation {
 
+/// What a force that is read of an actuator becomes: (1 + gain) of it, and offset_N.
+struct ForceCorrection {
+  double gain = 0.0;
+  double offset_N = 0.0;
+
+  double Force_N(double read_N) const { return (1.0 + gain) * read_N + offset_N; }
+};
+
 /// The last cable inputs, to interpolate those of a frame's time.
 class CableHistory {
  public:
   CableHistory(size_t cable_count, robot::CableInput preferred)
-      : cable_count_(cable_count), preferred_(preferred), drives_(cable_count) {}
+      : cable_count_(cable_count),
+        preferred_(preferred),
+        drives_(cable_count),
+        forces_(cable_count) {}
 
   /// Calibration of the actuators by which displacements are corrected from now on; initially none.
   void SetDrives(const std::vector<robot::DriveCalibration>& drives) { drives_ = drives; }
+  /// The same of forces: calibration of the pressure sensor of each chamber; initially none.
+  void SetForceCorrections(const std::vector<ForceCorrection>& forces) { forces_ = forces; }
 
   /// A stamp below the last one means that time went back: earlier readings are dropped.
   void Add(CableReading reading);
@@ -46,6 +59,7 @@ class CableHistory {
   size_t cable_count_;
   robot::CableInput preferred_;
   std::vector<robot::DriveCalibration> drives_;  ///< [cable_count_]
+  std::vector<ForceCorrection> forces_;          ///< [cable_count_]
   std::deque<CableReading> readings_;            ///< rising stamps
   bool went_back_ = true;                        ///< since the last sequence began
 };

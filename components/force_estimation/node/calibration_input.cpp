@@ -120,6 +120,23 @@ Status ReadGeometry(const idl::palpate_msgs::Calibration& message, robot::Calibr
   return robot::CheckGeometry(file->geometry_scale, file->cable_routes);
 }
 
+Status ReadPressureSensors(const idl::palpate_msgs::Calibration& message,
+                           robot::CalibrationFile* file) {
+  file->pressure_sensors.clear();
+  for (const auto& sensor : dds::Elements(message.pressure_sensors)) {
+    robot::CalibratedPressureSensor& found = file->pressure_sensors.emplace_back();
+    found.chamber = dds::Text(sensor.chamber);
+    if (sensor.has_zero) {
+      found.zero_Pa = robot::CalibratedNumber{sensor.zero_pa, sensor.zero_standard_error_pa};
+    }
+    if (sensor.has_gain) {
+      found.gain = robot::CalibratedNumber{sensor.gain, sensor.gain_standard_error};
+    }
+    if (Status status = robot::CheckPressureSensor(found); !status.ok()) return status;
+  }
+  return Status::Ok();
+}
+
 Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
   file->drives.clear();
   for (const auto& drive : dds::Elements(message.drives)) {
@@ -150,6 +167,7 @@ Status FromCalibration(const idl::palpate_msgs::Calibration& message,
   if (Status status = ReadMaterials(message, calibration); !status.ok()) return status;
   if (Status status = ReadGravity(message, calibration); !status.ok()) return status;
   if (Status status = ReadGeometry(message, calibration); !status.ok()) return status;
+  if (Status status = ReadPressureSensors(message, calibration); !status.ok()) return status;
   return ReadNumbers(message, calibration);
 }
 

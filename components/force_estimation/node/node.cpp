@@ -88,6 +88,8 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
   source_->SetCalibration(calibration);
   drives_ = worker_.model().drives();
   cables_.SetDrives(drives_);
+  forces_.resize(cable_names_.size());
+  CorrectForces(calibration.pressure_sensors);
   loop_.Attach(joint_states_, [this] { TakeJointStates(); });
   if (config_.follow_calibration) {
     loop_.Attach(calibration_.reader(), [this] { TakeCalibration(); });
@@ -198,6 +200,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
     drives_.at(At(cable - cable_names_.begin())) = drive.drive;
   }
   cables_.SetDrives(drives_);
+  CorrectForces(calibration.pressure_sensors);
   source_->SetCalibration(calibration);
   if (calibration.pose) {
     in_use_.pose = calibration.pose;
@@ -209,6 +212,19 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   sequence_pending_ = true;
   log_.Write(Severity::kInfo, "takes the calibration of " + calibration.date_utc + " (" +
                                   calibration.data + ") from the next frame on");
+}
+
+void ForceEstimationNode::CorrectForces(
+    const std::vector<robot::CalibratedPressureSensor>& sensors) {
+  for (const robot::CalibratedPressureSensor& sensor : sensors) {
+    const auto chamber = std::find(cable_names_.begin(), cable_names_.end(), sensor.chamber);
+    const auto actuator = static_cast<int>(chamber - cable_names_.begin());
+    const robot::CalibratedNumber none;
+    const robot::ActuatorTraits& piston = worker_.model().traits(actuator);
+    forces_.at(At(actuator)) = {.gain = sensor.gain.value_or(none).value,
+                                .offset_N = piston.Force_N(sensor.zero_Pa.value_or(none).value)};
+  }
+  cables_.SetForceCorrections(forces_);
 }
 
 void ForceEstimationNode::Accept(FrameInput input) {

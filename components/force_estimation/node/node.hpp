@@ -49,6 +49,7 @@ class ForceEstimationNode {
   void ExpectPosture(std::int64_t stamp_ns);
   void TakeCalibration();
   void Adopt(const robot::CalibrationFile& calibration);
+  void CorrectForces(const std::vector<robot::CalibratedPressureSensor>& sensors);
   std::unique_ptr<FrameSource> MakeSource();
   void Take(FrameArrival arrival);
   void BeginSequence(const SequenceStart& start);
@@ -78,6 +79,7 @@ class ForceEstimationNode {
   Worker worker_;
   std::vector<std::string> cable_names_;
   std::vector<robot::DriveCalibration> drives_;
+  std::vector<ForceCorrection> forces_;  ///< [cable_names_] by pressure sensors
   CableHistory cables_;
   Outputs outputs_;
   dds::Reader<idl::sensor_msgs::JointState> joint_states_;

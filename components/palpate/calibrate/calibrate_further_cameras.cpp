@@ -4,8 +4,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "components/offline/forces/pressure_correction.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "libs/core/error.hpp"
@@ -19,8 +22,18 @@ void NoteLeftOut(const std::string& name, const std::string& why) {
   fmt::print(stderr, "note: camera '{}' is not calibrated: {}\n", name, why);
 }
 
+/// The largest; 0: there is none.
+double ErrorOf(const std::vector<robot::CalibratedPressureSensor>& sensors,
+               std::optional<robot::CalibratedNumber> robot::CalibratedPressureSensor::*number) {
+  double error = 0.0;
+  for (const robot::CalibratedPressureSensor& sensor : sensors) {
+    if (sensor.*number) error = std::max(error, (sensor.*number)->standard_error);
+  }
+  return error;
+}
+
 /// What the first camera, and markers, left open counts in the further ones: their fit estimates
-/// the offsets again, with the standard errors so far as priors.
+/// the offsets, zeros and gains again, with the standard errors so far as priors.
 calibration::JointRequest RequestAfter(const robot::CalibrationFile& file) {
   double sigma_m = 0.0;
   for (const robot::CalibratedDrive& drive : file.drives) {
@@ -29,6 +42,9 @@ calibration::JointRequest RequestAfter(const robot::CalibrationFile& file) {
   calibration::JointRequest request;
   request.actuator_offsets = sigma_m > 0.0;
   if (request.actuator_offsets) request.actuator_offset_sigma_m = sigma_m;
+  using Sensor = robot::CalibratedPressureSensor;
+  request.pressure_zero_sigma_Pa = ErrorOf(file.pressure_sensors, &Sensor::zero_Pa);
+  request.pressure_gain_sigma = ErrorOf(file.pressure_sensors, &Sensor::gain);
   return request;
 }
 
@@ -48,8 +64,10 @@ void CalibrateFurtherCameras(const CalibrateOptions& options,
   if (names.empty()) return;
   const CalibrateOptions own = OfFurtherCamera(options);
   robot::ApplyCalibration(*file, model);
+  experiment::Experiment corrected = experiment;
+  offline::CorrectPressures(*file, &corrected);
   for (const std::string& name : names) {
-    const experiment::Experiment alone = experiment::OfCamera(experiment, name);
+    const experiment::Experiment alone = experiment::OfCamera(corrected, name);
     if (!alone.T_robot_camera) {
       NoteLeftOut(name, "give its approximate pose in 'cameras' of experiment.yaml");
       continue;

@@ -198,6 +198,8 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   clouds.request = {.pose_prior = PriorOf(options, experiment),
                     .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
                     .actuator_gains = options.actuator_gains,
+                    .pressure_zero_sigma_Pa = options.pressure_zero_sigma_Pa,
+                    .pressure_gain_sigma = options.pressure_gain_sigma,
                     .moduli = materials};
   const Eigen::Isometry3d start = StartOf(options, experiment, *model);
   return Describe(FitImages(options, experiment, start, clouds, model), options, *model);

@@ -149,11 +149,14 @@ calibration::JointRequest RequestOf(const CalibrateOptions& options,
                                     const experiment::Experiment& experiment,
                                     const std::vector<int>& materials, bool camera) {
   constexpr double kRadians = 0.017453292519943295;
+  const bool sensors = options.what != "material";
   return {.pose = camera,
           .pose_prior = camera ? PriorOf(options, experiment) : std::nullopt,
-          .actuator_offsets = options.what != "material",
+          .actuator_offsets = sensors,
           .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
           .actuator_gains = options.actuator_gains,
+          .pressure_zero_sigma_Pa = sensors ? options.pressure_zero_sigma_Pa : 0.0,
+          .pressure_gain_sigma = sensors ? options.pressure_gain_sigma : 0.0,
           .moduli = materials,
           .poissons_ratio_sigma = options.poissons_ratio_sigma,
           .gravity_tilt_sigma_rad = kRadians * options.gravity_tilt_sigma_deg,

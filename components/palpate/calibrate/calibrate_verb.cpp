@@ -119,6 +119,10 @@ struct PriorOption {
 constexpr std::array kPriorOptions = {
     PriorOption{"--marker-offset-sigma-m M", &CalibrateOptions::marker_offset_sigma_m,
                 "marker offsets, m"},
+    PriorOption{"--pressure-zero-sigma-Pa PA", &CalibrateOptions::pressure_zero_sigma_Pa,
+                "the zero of the pressure sensor of each chamber, Pa"},
+    PriorOption{"--pressure-gain-sigma RATIO", &CalibrateOptions::pressure_gain_sigma,
+                "the gain of the pressure sensor of each chamber"},
     PriorOption{"--gravity-tilt-sigma-deg DEG", &CalibrateOptions::gravity_tilt_sigma_deg,
                 "the gravity direction, degrees"},
     PriorOption{"--mass-relative-sigma RATIO", &CalibrateOptions::mass_relative_sigma,
@@ -222,7 +226,8 @@ int Calibrate(const CalibrateOptions& options) {
 
 app::Verb CalibrateVerb() {
   return {
-      "calibrate", "Calibrate camera pose, cable actuators and material from measured data",
+      "calibrate",
+      "Calibrate camera pose, cable actuators, pressure sensors and material from measured data",
       [](app::Arguments& arguments) -> app::Verb::Action {
         const auto options = std::make_shared<CalibrateOptions>();
         DeclareRobot(arguments, &options->robot);

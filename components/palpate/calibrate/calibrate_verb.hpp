@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "components/calibration/joint/joint_request.hpp"
 #include "libs/app/verbs.hpp"
 #include "libs/fem/sparse/solver_settings.hpp"
 
@@ -28,8 +29,10 @@ struct CalibrateOptions {
   double marker_bias_m = 0.0;             ///< standard deviation of a marker's constant error
   double actuator_offset_sigma_m = 2e-3;  ///< prior standard deviation of an actuator's offset
   bool actuator_gains = false;            ///< estimate the actuators' gains, too
-  bool fit_depth_bias = false;            ///< the default, said explicitly
-  bool no_depth_bias = false;             ///< do not estimate the depth bias
+  double pressure_zero_sigma_Pa = calibration::JointRequest{}.pressure_zero_sigma_Pa;
+  double pressure_gain_sigma = calibration::JointRequest{}.pressure_gain_sigma;
+  bool fit_depth_bias = false;  ///< the default, said explicitly
+  bool no_depth_bias = false;   ///< do not estimate the depth bias
   // Prior standard deviations; 0: not estimated.
   double marker_offset_sigma_m = 0.0;
   double gravity_tilt_sigma_deg = 0.0;

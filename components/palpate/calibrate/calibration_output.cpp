@@ -95,6 +95,36 @@ std::string UndeterminedText(const robot::Undetermined& number) {
       reached, number.what_would_tell);
 }
 
+namespace {
+
+std::string SensorText(const robot::CalibratedPressureSensor& sensor) {
+  std::string text;
+  if (sensor.zero_Pa) {
+    text += fmt::format(" zero {:.0f} Pa (standard error {:.0f} Pa)", sensor.zero_Pa->value,
+                        sensor.zero_Pa->standard_error);
+  }
+  if (sensor.gain) {
+    text += fmt::format("{} gain {:.2f} % ({:.2f} %)", text.empty() ? "" : ",",
+                        100.0 * sensor.gain->value, 100.0 * sensor.gain->standard_error);
+  }
+  return text;
+}
+
+nlohmann::ordered_json ToJson(const robot::CalibratedPressureSensor& sensor) {
+  nlohmann::ordered_json json = {{"chamber", sensor.chamber}};
+  if (sensor.zero_Pa) {
+    json["zero_Pa"] = sensor.zero_Pa->value;
+    json["zero_standard_error_Pa"] = sensor.zero_Pa->standard_error;
+  }
+  if (sensor.gain) {
+    json["gain"] = sensor.gain->value;
+    json["gain_standard_error"] = sensor.gain->standard_error;
+  }
+  return json;
+}
+
+}  // namespace
+
 void PrintCalibration(const robot::CalibrationFile& file) {
   for (const robot::CalibratedModulus& modulus : file.moduli) {
     fmt::print("E of {}: {:.2f} kPa, standard error {:.2f} kPa ({:.2g} %)\n", modulus.part,
@@ -117,6 +147,9 @@ void PrintCalibration(const robot::CalibrationFile& file) {
         "actuator of {}: offset {:.3f} mm (standard error {:.3f} mm), gain {:.2f} % ({:.2f} %)\n",
         drive.cable, 1e3 * drive.drive.offset_m, 1e3 * drive.standard_error.offset_m,
         100.0 * drive.drive.gain, 100.0 * drive.standard_error.gain);
+  }
+  for (const robot::CalibratedPressureSensor& sensor : file.pressure_sensors) {
+    fmt::print("pressure sensor of {}:{}\n", sensor.chamber, SensorText(sensor));
   }
   PrintGeometry(file);
   for (const robot::Undetermined& number : file.undetermined) {
@@ -160,6 +193,9 @@ void PrintCalibrationJson(const robot::CalibrationFile& file) {
                               {"offset_standard_error_m", drive.standard_error.offset_m},
                               {"gain", drive.drive.gain},
                               {"gain_standard_error", drive.standard_error.gain}});
+  }
+  for (const robot::CalibratedPressureSensor& sensor : file.pressure_sensors) {
+    json["pressure_sensors"].push_back(ToJson(sensor));
   }
   AddGeometry(file, &json);
   for (const robot::Undetermined& number : file.undetermined) {

@@ -105,7 +105,8 @@ void NameKnownLoads(const std::vector<const experiment::Recording*>& recordings,
 
 void RequireSomething(const robot::CalibrationFile& file) {
   if (!file.moduli.empty() || !file.poissons_ratios.empty() || file.gravity || file.pose ||
-      !file.drives.empty() || file.geometry_scale || !file.cable_routes.empty()) {
+      !file.drives.empty() || !file.pressure_sensors.empty() || file.geometry_scale ||
+      !file.cable_routes.empty()) {
     return;
   }
   std::string text = "these data determine nothing";

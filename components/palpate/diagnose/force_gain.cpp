@@ -14,6 +14,7 @@
 #include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/offline/forces/marker_replay.hpp"
 #include "components/offline/forces/marker_tare.hpp"
+#include "components/offline/forces/pressure_correction.hpp"
 #include "components/palpate/compare/force_comparison.hpp"
 #include "components/palpate/estimate/estimate_settings.hpp"
 #include "components/palpate/estimate/frame_progress.hpp"
@@ -73,19 +74,23 @@ ForceErrors Estimate(const robot::RobotDescription& robot,
   const force_estimation::Config config = ReadEstimateSettings(experiment, {}, {}, {}).forces;
   robot::RobotModel model(robot::BuildRobotBody(robot), fem::StaticSettings{},
                           {config.solver, config.threads});
-  if (calibration) robot::ApplyCalibration(*calibration, &model);
+  experiment::Experiment corrected = experiment;
+  if (calibration) {
+    robot::ApplyCalibration(*calibration, &model);
+    offline::CorrectPressures(*calibration, &corrected);
+  }
   constexpr auto kInput = robot::CableInput::kDisplacement;
-  offline::MarkerTare tare(experiment, &model, kInput, config);
+  offline::MarkerTare tare(corrected, &model, kInput, config);
   tare.Choose();
   FrameProgress progress(model.body());
   ForceErrors errors;
-  for (const experiment::Recording& recording : experiment.recordings) {
+  for (const experiment::Recording& recording : corrected.recordings) {
     if (!HasKnownForces(recording)) continue;
     const auto& frames = recording.markers->frames;
     const double duration_s = frames.back().t_s - frames.front().t_s;
     const double rate_Hz = duration_s > 0.0 ? kMostFrames / duration_s : 0.0;
     const offline::MarkerReplay replay(
-        {.experiment = experiment,
+        {.experiment = corrected,
          .model = &model,
          .cable_input = kInput,
          .limits = {rate_Hz, stop_requested,

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "components/offline/forces/pressure_correction.hpp"
 #include "components/palpate/compare/comparison_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/images/open_images.hpp"
@@ -33,6 +34,7 @@ robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot
   auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
   robot::ApplyCalibration(calibration, model);
   offline::TakePoses(calibration, experiment);
+  offline::CorrectPressures(calibration, experiment);
   return calibration;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "components/diagnosis/prepare/nearest_robot.hpp"
 #include "libs/app/yaml.hpp"
@@ -116,6 +117,25 @@ TEST_F(ChamberFaults, AreWhatTheyAreDefinedAs) {
   const double area_of_other_m2 = observed_.timeline.actuators[1].area_m2;
   EXPECT_TRUE(
       (Thrust_N("swapped_tubes", 1.0).row(1) / area_of_other_m2).isApprox(first / area_m2, 1e-12));
+}
+
+/// A calibration that was extended by a fault of a sensor corrects readings to what the fault has.
+TEST_F(ChamberFaults, OfSensorsAreInTheCalibration) {
+  const double area_m2 = observed_.timeline.actuators[0].area_m2;
+  const Eigen::RowVectorXd read_Pa = Thrust_N("", 0.0).row(0) / area_m2;
+  for (const auto& [id, z] :
+       {std::pair("pressure_gain", 0.1), std::pair("pressure_zero", -500.0)}) {
+    robot::RobotDescription robot;
+    robot::CalibrationFile calibration;
+    ASSERT_TRUE(First(id).Extend(Eigen::VectorXd::Constant(1, z), &robot, &calibration)) << id;
+    ASSERT_EQ(calibration.pressure_sensors.size(), 1U);
+    const robot::CalibratedPressureSensor& sensor = calibration.pressure_sensors.front();
+    EXPECT_EQ(sensor.chamber, body_.chambers.front().name);
+    const Eigen::RowVectorXd has_Pa = Thrust_N(id, z).row(0) / area_m2;
+    for (Eigen::Index s = 0; s < read_Pa.size(); ++s) {
+      EXPECT_NEAR(sensor.Pressure_Pa(read_Pa[s]), has_Pa[s], 1e-6) << id;
+    }
+  }
 }
 
 /// A linear model about the nominal robot is too far from these to find them.

@@ -81,9 +81,9 @@ TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
       .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, as_built, 1)};
   for (const FaultModelPtr& cause : MakeFaultModels(world, {})) {
     robot::RobotDescription robot = robot_;
-    std::vector<robot::CalibratedDrive> drives;
+    robot::CalibrationFile calibration;
     const Eigen::VectorXd z = FaultOf(*cause);
-    if (!cause->Extend(z, &robot, &drives) || !drives.empty()) continue;
+    if (!cause->Extend(z, &robot, &calibration) || !calibration.drives.empty()) continue;
     if (!extended.insert(cause->name().id).second) continue;  // one of its places
     ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
     cause->Apply(z, &hypothesis);
@@ -105,7 +105,7 @@ TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
 /// The file holds creep, softening and play as they were found.
 TEST_F(Extension, ReadsBackWithTheSameValues) {
   robot::RobotDescription robot = robot_;
-  std::vector<robot::CalibratedDrive> drives;
+  robot::CalibrationFile calibration;
   const Simulation as_built = Simulator(observed_, 1).Run(NominalHypothesis(body_, observed_));
   const CatalogueInputs world{
       .body = body_,
@@ -119,7 +119,7 @@ TEST_F(Extension, ReadsBackWithTheSameValues) {
     const bool first = (id == "viscoelastic_creep" && creeps++ == 0) ||
                        (id == "mullins" && softens++ == 0) || (id == "backlash" && plays++ == 0);
     if (first) {
-      ASSERT_TRUE(cause->Extend(FaultOf(*cause), &robot, &drives)) << id;
+      ASSERT_TRUE(cause->Extend(FaultOf(*cause), &robot, &calibration)) << id;
     }
   }
   ASSERT_EQ(robot.creep.size(), 1U);
@@ -150,11 +150,11 @@ TEST_F(Extension, AddsToTheSofteningOfTheFile) {
   for (const FaultModelPtr& cause : MakeFaultModels(world, {})) {
     if (cause->name().id != "mullins") continue;
     ++softens;
-    std::vector<robot::CalibratedDrive> drives;
+    robot::CalibrationFile calibration;
     robot::RobotDescription extended = robot;
-    cause->Extend(Eigen::Vector2d::Zero(), &extended, &drives);
+    cause->Extend(Eigen::Vector2d::Zero(), &extended, &calibration);
     EXPECT_EQ(extended.softening, robot.softening);
-    cause->Extend(Eigen::Vector2d(0.1, 0.0), &extended, &drives);
+    cause->Extend(Eigen::Vector2d(0.1, 0.0), &extended, &calibration);
     EXPECT_LT(extended.softening->r, 4.0);
     EXPECT_EQ(extended.softening->m_J_m3, 250.0);
     ModelHypothesis hypothesis = NominalHypothesis(body, observed_);

@@ -16,6 +16,7 @@
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/system/blind/coarse_robot.hpp"
 #include "tests/system/blind/score_table.hpp"
 #include "tests/system/blind/set_folder.hpp"
 #include "tests/system/blind/two_at_a_time.hpp"
@@ -80,6 +81,9 @@ BlindSet BlindSet::FromEnvironment(int cases) {
   if (NumberFrom("PALPATE_BLIND_SEED", 0.0, kLargestSeed, &number)) {
     set.seed = static_cast<std::uint64_t>(number);
   }
+  if (NumberFrom("PALPATE_BLIND_SAMPLES", 10.0, 2000.0, &number)) {
+    set.samples = static_cast<int>(number);
+  }
   if (const char* folder = std::getenv("PALPATE_BLIND_FOLDER")) set.folder = folder;
   if (const char* data = std::getenv("PALPATE_BLIND_DATA")) set.measured = ParseMeasured(data);
   if (const char* kind = std::getenv("PALPATE_BLIND_KIND")) set.kind = ParseKind(kind);
@@ -102,7 +106,9 @@ std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
              set.cases, set.robot, set.kind ? " (" + ToString(*set.kind) + ")" : "",
              set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
   const SetFolder folder(set.folder);
-  const CaseRunner runner({.robot_file = test_support::RobotFile(set.robot),
+  const CaseRunner runner({.robot_file = IsCoarse(set.robot)
+                                             ? WriteCoarseRobot(set.robot, folder.path())
+                                             : test_support::RobotFile(set.robot),
                            .folder = folder.path(),
                            .keep = folder.keeps(),
                            .measured = set.measured,

@@ -13,6 +13,7 @@
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "tests/system/blind/coarse_robot.hpp"
 #include "tests/system/blind/picture_camera.hpp"
 #include "tests/system/blind/rod_meshes.hpp"
 #include "tests/system/process.hpp"
@@ -93,6 +94,7 @@ Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
   PALPATE_CHECK(scenario_text_.find(kNoEffects) != std::string::npos);
   // A finer rod takes long, and of five rows a second not a half are compared.
   if (robot == "rod") scenario_text_ = Replaced(scenario_text_, kRodsRate, "rate_hz: 2");
+  if (IsCoarse(robot)) scenario_text_ = CoarseScenario(scenario_text_);
   for (const fs::path& mesh :
        {scenarios / "four_leg_coarse.msh", scenarios / "rod_coarse.msh",
         scenarios / "pneumatic_finger_coarse.msh", scenarios / "pneumatic_arm_coarse.msh",

@@ -20,7 +20,8 @@ namespace palpate::blind {
 std::string WithRecordings(const std::string& scenario, const std::set<std::string>& names);
 
 /// Makes experiments of config/scenarios/diagnose.yaml with `palpate simulate`, each a process; of
-/// the robot file rod.yaml, those of diagnose_rod.yaml on the body of MeshesOfRod.
+/// the robot file rod.yaml, those of diagnose_rod.yaml on the body of MeshesOfRod; of robots with
+/// chambers CoarseScenario of theirs.
 /// Where pictures are asked for, a small depth camera takes them in the place of markers.
 class Generator {
  public:

@@ -7,6 +7,7 @@
 
 #include "components/calibration/live/earlier_calibration.hpp"
 #include "tests/components/force_estimation/node/test_robot.hpp"
+#include "tests/components/force_estimation/test_bodies.hpp"
 
 namespace palpate::calibration {
 namespace {
@@ -168,6 +169,28 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   EXPECT_NEAR(found.drives[0].drive.TakenIn_m(0.0), 2.3e-3, 1e-15);
   EXPECT_NEAR(found.drives[0].drive.TakenIn_m(1e-2), 1.32e-2 + 2.3e-3, 1e-15);
   EXPECT_EQ(found.drives[0].standard_error.offset_m, 3e-4);
+}
+
+/// Thrusts in frames are readings: corrected by the earlier sensors, and by the new ones at once.
+TEST(EarlierCalibration, CorrectsPressuresAndIsComposedWithTheNewOne) {
+  const auto arm = force_estimation::Build(test_support::QuickRobot("pneumatic_arm"));
+  const robot::ActuatorTraits& chamber = arm->traits(1);
+  robot::CalibrationFile before;
+  before.pressure_sensors = {{.chamber = chamber.name,
+                              .zero_Pa = robot::CalibratedNumber{-100.0, 3.0},
+                              .gain = robot::CalibratedNumber{0.25, 0.02}}};
+  std::vector<CalibrationFrame> frames(1);
+  frames[0].cables = {{Kind::kTension, 1.0}, {Kind::kTension, chamber.Force_N(2e3)}, {}};
+  ReadAsBefore(before, *arm, &frames);
+  EXPECT_EQ(frames[0].cables[0].value, 1.0) << "its sensor is not calibrated";
+  EXPECT_NEAR(chamber.ReportedForce(frames[0].cables[1].value), 2400.0, 1e-9);
+  EXPECT_EQ(frames[0].cables[2].kind, Kind::kNone) << "open to the air";
+  robot::CalibrationFile found;
+  found.pressure_sensors = {
+      {.chamber = chamber.name, .zero_Pa = robot::CalibratedNumber{40.0, 2.0}, .gain = {}}};
+  KeepFromBefore(before, &found);
+  ASSERT_EQ(found.pressure_sensors.size(), 1U);
+  EXPECT_NEAR(found.pressure_sensors[0].Pressure_Pa(2e3), 2440.0, 1e-9);
 }
 
 }  // namespace

@@ -44,6 +44,11 @@ robot::CalibrationFile SomeCalibration() {
                                          .coefficients = Eigen::Vector3d(1e-3, 2e-3, -3e-3),
                                          .covariance = 1e-6 * root * root.transpose()}};
   file.drives = {{"top", {1e-3, 0.02}, {2e-4, 0.01}}};
+  file.pressure_sensors = {
+      {.chamber = "bend",
+       .zero_Pa = robot::CalibratedNumber{-120.0, 15.0},
+       .gain = robot::CalibratedNumber{0.03, 0.01}},
+      {.chamber = "tip", .zero_Pa = robot::CalibratedNumber{40.0, 5.0}, .gain = {}}};
   file.geometry_scale = robot::CalibratedScale{1.02, 1e-3};
   file.cable_routes = {{"top", 2, {1e-3, 2e-3, 3e-3}, {1e-4, 2e-4, 3e-4}}};
   file.undetermined = {{"cable_gain:top", "a longer pull"}};
@@ -92,6 +97,14 @@ TEST(ConvertCalibration, ComesOutAtTheOtherEndAsItWentIn) {
   EXPECT_EQ(got.drives[0].drive.gain, 0.02);
   EXPECT_EQ(got.drives[0].standard_error.offset_m, 2e-4);
   EXPECT_EQ(got.drives[0].standard_error.gain, 0.01);
+  ASSERT_EQ(got.pressure_sensors.size(), 2u);
+  EXPECT_EQ(got.pressure_sensors[0].chamber, "bend");
+  EXPECT_EQ(got.pressure_sensors[0].zero_Pa->value, -120.0);
+  EXPECT_EQ(got.pressure_sensors[0].zero_Pa->standard_error, 15.0);
+  EXPECT_EQ(got.pressure_sensors[0].gain->value, 0.03);
+  EXPECT_EQ(got.pressure_sensors[0].gain->standard_error, 0.01);
+  EXPECT_EQ(got.pressure_sensors[1].zero_Pa->value, 40.0);
+  EXPECT_FALSE(got.pressure_sensors[1].gain) << "not determined is not 0";
   ASSERT_EQ(got.moduli.size(), 2u);
   EXPECT_EQ(got.moduli[1].part, "tip");
   EXPECT_EQ(got.moduli[1].youngs_modulus_Pa, 2e5);
@@ -126,7 +139,7 @@ TEST(ConvertCalibration, WhatIsNotInItDoesNotComeOut) {
   const auto message = ToCalibration(bare, Eigen::Matrix<double, 6, 6>::Zero(), 5);
   ASSERT_TRUE(force_estimation::FromCalibration(*message, &got).ok());
   EXPECT_FALSE(got.pose || got.gravity || got.depth_bias || got.geometry_scale);
-  EXPECT_TRUE(got.cable_routes.empty());
+  EXPECT_TRUE(got.cable_routes.empty() && got.pressure_sensors.empty());
   EXPECT_TRUE(got.moduli.empty() && got.poissons_ratios.empty() && got.drives.empty());
   EXPECT_TRUE(got.undetermined.empty());
 }
@@ -150,6 +163,9 @@ TEST(ConvertCalibration, RefusesNumbersThatAreNone) {
   message = SomeMessage();
   message->drives._buffer[0].offset_m = kNaN;
   EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("'top'"));
+  message = SomeMessage();
+  message->pressure_sensors._buffer[1].zero_pa = kNaN;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("'tip'"));
   message = SomeMessage();
   message->moduli._buffer[1].youngs_modulus_pa = 0.0;
   EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("'tip'"));

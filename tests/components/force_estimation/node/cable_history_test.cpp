@@ -51,6 +51,15 @@ TEST(CableHistory, WhereBothInputsAreKnownThePreferredOneIsImposed) {
   EXPECT_EQ(history.At(200)->at(0).kind, ActuatorCommand::Kind::kNone);
 }
 
+TEST(CableHistory, CorrectsForcesByTheSensorThatReadsThem) {
+  CableHistory history(2, CableInput::kTension);
+  history.Add({100, {{std::nullopt, 4.0}, {0.01, std::nullopt}}});
+  history.Add({200, {{std::nullopt, 6.0}, {0.02, std::nullopt}}});
+  history.SetForceCorrections({{.gain = 0.5, .offset_N = -1.0}, {.gain = 0.5, .offset_N = -1.0}});
+  EXPECT_DOUBLE_EQ(history.At(150)->at(0).value, 6.5);
+  EXPECT_DOUBLE_EQ(history.At(150)->at(1).value, 0.015) << "no force";
+}
+
 TEST(CableHistory, WhenTimeGoesBackNothingOldIsFound) {
   CableHistory history(1, CableInput::kDisplacement);
   history.Add(At(100, 0.1));

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "tests/system/blind/coarse_robot.hpp"
 #include "tests/system/blind/diagnose_fixture.hpp"
 
 namespace palpate::blind {
@@ -18,12 +19,7 @@ class DiagnoseChambers : public DiagnoseVerb {
     name_ = robot;
     mesh_ = robot + "_coarse.msh";
     element_of_truth_ = "element: tet4";
-    std::string text = ReadFile(Source() / "config/robots" / (robot + ".yaml"));
-    Replace("element: tet10", "element: tet4", &text);
-    Replace("file: " + robot + ".msh", "file: " + (Source() / "config/scenarios" / mesh_).string(),
-            &text);
-    robot_ = (folder_ / (robot + ".yaml")).string();
-    WriteFile(robot_, text);
+    robot_ = WriteCoarseRobot(robot, folder_).string();
   }
 
   nlohmann::json VerdictOn(const std::string& effect) {
@@ -92,6 +88,26 @@ TEST_F(DiagnoseChambers, FindALeakOrWhatLooksTheSame) {
   ASSERT_FALSE(verdict["causes"].empty()) << verdict["reason"];
   EXPECT_THAT(verdict["causes"][0]["id"].get<std::string>(),
               testing::AnyOf("leak", "pressure_gain"));
+}
+
+/// Of a sensor that reads too little: no leak has this effect.
+TEST_F(DiagnoseChambers, FindThePressureSensorsGain) {
+  Take("pneumatic_finger");
+  ExpectWithin(Named("{id: pressure_gain, where: chamber:bend, g: 0.25}", "pressure_gain"), "g",
+               0.25);
+}
+
+TEST_F(DiagnoseChambers, FindAThinWall) {
+  Take("pneumatic_finger");
+  ExpectWithin(Named("{id: thin_wall, where: chamber:bend, thinner_m: 0.001}", "thin_wall"),
+               "thinner_m", 0.001);
+}
+
+TEST_F(DiagnoseChambers, FindExchangedTubes) {
+  Take("pneumatic_arm");
+  const nlohmann::json tubes =
+      Named("{id: swapped_tubes, where: [chamber:east, chamber:south_west]}", "swapped_tubes");
+  EXPECT_THAT(tubes["where"], testing::UnorderedElementsAre("chamber:east", "chamber:south_west"));
 }
 
 TEST_F(DiagnoseChambers, FindThePressureSensorsZero) {
