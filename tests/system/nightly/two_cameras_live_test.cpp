@@ -116,9 +116,8 @@ TEST_F(TwoCameraProcesses, FindWhatOnlyTheSecondSeesAndGoOnWithoutIt) {
   EXPECT_THAT(listener_.notes(), Not(Contains(HasSubstr("camera 'back'"))));
 
   bench_->Kill(camera_);
-  ASSERT_TRUE(listener_.WaitFor([&] {
-    return testing::Value(listener_.notes(), Contains(HasSubstr("camera 'back'")));
-  }));
+  ASSERT_TRUE(listener_.WaitFor(
+      [&] { return testing::Value(listener_.notes(), Contains(HasSubstr("camera 'back'"))); }));
   for (int frame = 0; frame < 20; ++frame) {
     listener_.Forget();
     ASSERT_TRUE(listener_.WaitFor([&] { return listener_.answers() > 0; }));
