@@ -32,14 +32,19 @@ JointPerception::JointPerception(const Config& config) : JointPerception(config,
 
 JointPerception::JointPerception(const Config& config, SegmenterMaker make_segmenter)
     : config_(config), make_segmenter_(std::move(make_segmenter)), tracker_(config.tracking) {
-  cameras_.emplace_back(config_, make_segmenter_(config_));
+  HaveCameras(1);
+}
+
+void JointPerception::HaveCameras(std::size_t count) {
+  while (cameras_.size() < count) {
+    cameras_.emplace_back(config_, make_segmenter_(config_));
+  }
+  if (observation_.views.size() < count) observation_.views.resize(count);
 }
 
 void JointPerception::Open(const std::vector<std::optional<rgbd::RgbdCamera>>& cameras) {
   PALPATE_CHECK(!cameras.empty());
-  while (cameras_.size() < cameras.size()) {
-    cameras_.emplace_back(config_, make_segmenter_(config_));
-  }
+  HaveCameras(cameras.size());
   for (std::size_t k = 0; k < cameras.size(); ++k) {
     if (cameras[k]) cameras_[k].SetCamera(*cameras[k]);
   }
@@ -47,8 +52,20 @@ void JointPerception::Open(const std::vector<std::optional<rgbd::RgbdCamera>>& c
   tracker_.Forget();
 }
 
+void JointPerception::SetCamera(std::size_t number, const rgbd::RgbdCamera& camera) {
+  HaveCameras(number + 1);
+  cameras_[number].SetCamera(camera);
+  if (number == 0) tracker_.Forget();
+}
+
+void JointPerception::Restart(std::size_t number, const Config& config) {
+  HaveCameras(number + 1);
+  cameras_[number] = CameraPerception(config, make_segmenter_(config));
+}
+
 const JointObservation& JointPerception::Update(std::int64_t stamp_ns,
                                                 const std::vector<CameraFrame>& frames) {
+  HaveCameras(frames.size());
   PALPATE_CHECK(frames.size() == observation_.views.size(), frames.size());
   observation_.stamp_ns = stamp_ns;
   located_.clear();

@@ -52,11 +52,19 @@ class JointPerception {
   /// that camera has no image at all.
   void Open(const std::vector<std::optional<rgbd::RgbdCamera>>& cameras);
 
-  /// A frame of each camera, in the order of Open, of which one at least has images. The
-  /// observation holds until the next call.
+  /// One of the cameras, or the same one reopened. The first removes all contacts; a further one
+  /// leaves them: the others have seen them meanwhile.
+  void SetCamera(std::size_t number, const rgbd::RgbdCamera& camera);
+  /// Makes what is known of one camera's images again, with other settings. SetCamera must follow.
+  void Restart(std::size_t number, const Config& config);
+
+  /// A frame of each camera, in the order of Open, of which one at least has images. More cameras
+  /// than before are new ones. The observation holds until the next call.
   const JointObservation& Update(std::int64_t stamp_ns, const std::vector<CameraFrame>& frames);
 
  private:
+  void HaveCameras(std::size_t count);
+
   Config config_;
   SegmenterMaker make_segmenter_;
   std::vector<CameraPerception> cameras_;

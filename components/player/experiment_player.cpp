@@ -9,6 +9,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/cameras.hpp"
 
 namespace palpate::player {
 
@@ -39,15 +40,7 @@ std::vector<double> TimesOfMarkers(const Recording& recording) {
   return times_s;
 }
 
-double SecondsOf(const experiment::FrameFiles& frame) {
-  return static_cast<double>(frame.t_ns) / kNsPerSecond;
-}
-
-std::vector<double> TimesOfImages(const experiment::RgbdSequence& sequence) {
-  std::vector<double> times_s;
-  for (const auto& frame : sequence.frames) times_s.push_back(SecondsOf(frame));
-  return times_s;
-}
+double SecondsOf(std::int64_t t_ns) { return static_cast<double>(t_ns) / kNsPerSecond; }
 
 std::vector<CableInput> CablesAt(const Recording& recording, double t_s) {
   std::vector<CableInput> cables;
@@ -108,22 +101,49 @@ ExperimentPlayer ExperimentPlayer::OfImages(experiment::Experiment experiment,
                                             const ConfigLoader& load) {
   ExperimentPlayer player(std::move(experiment));
   player.plays_images_ = true;
+  player.further_cameras_ = experiment::FurtherCameras(player.experiment_);
   CheckRecordingName(player.experiment_, recording);
   for (const Recording& candidate : player.experiment_.recordings) {
-    const bool has_images = !candidate.depth_images.empty() || !candidate.clouds.empty();
-    if (!has_images || (!recording.empty() && candidate.name != recording)) continue;
-    auto images = std::make_unique<experiment::RgbdSequence>(
-        experiment::OpenRecordingImages(candidate, load));
-    auto times_s = EventTimes(TimesOfImages(*images), candidate);
-    player.tracks_.push_back({&candidate, Eigen::Isometry3d::Identity(), MeasurementFrame::kCamera,
-                              Eigen::Vector3d::Zero(), std::move(times_s), std::move(images)});
-    const auto pose = experiment::RobotFromCamera(player.experiment_, candidate);
-    if (const auto* known = std::get_if<Eigen::Isometry3d>(&pose)) {
-      player.tracks_.back().T_robot_camera = *known;
-    }
+    if (recording.empty() || candidate.name == recording) player.AddTrackOfImages(candidate, load);
   }
   player.CheckTracks(recording, "images");
   return player;
+}
+
+ExperimentPlayer::CameraTrack ExperimentPlayer::OpenCamera(const experiment::Experiment& experiment,
+                                                           const Recording& recording,
+                                                           const ConfigLoader& load) const {
+  CameraTrack track;
+  if (recording.depth_images.empty() && recording.clouds.empty()) return track;
+  track.images =
+      std::make_unique<experiment::RgbdSequence>(experiment::OpenRecordingImages(recording, load));
+  const auto pose = experiment::RobotFromCamera(experiment, recording);
+  if (const auto* known = std::get_if<Eigen::Isometry3d>(&pose)) track.T_robot_camera = *known;
+  return track;
+}
+
+void ExperimentPlayer::AddTrackOfImages(const Recording& recording, const ConfigLoader& load) {
+  Track track{&recording,
+              Eigen::Isometry3d::Identity(),
+              MeasurementFrame::kCamera,
+              Eigen::Vector3d::Zero(),
+              {}};
+  track.cameras.push_back(OpenCamera(experiment_, recording, load));
+  for (const std::string& name : further_cameras_) {
+    track.cameras.push_back(OpenCamera(experiment::OfCamera(experiment_, name),
+                                       experiment::OfCamera(experiment_, recording, name), load));
+  }
+  std::vector<std::vector<std::int64_t>> t_ns(track.cameras.size());
+  for (std::size_t k = 0; k < track.cameras.size(); ++k) {
+    if (!track.cameras[k].images) continue;
+    for (const auto& frame : track.cameras[k].images->frames) t_ns[k].push_back(frame.t_ns);
+  }
+  track.frames = experiment::JoinFrames(t_ns);
+  if (track.frames.empty()) return;
+  std::vector<double> times_s;
+  for (const experiment::JointFrame& frame : track.frames) times_s.push_back(SecondsOf(frame.t_ns));
+  track.times_s = EventTimes(std::move(times_s), recording);
+  tracks_.push_back(std::move(track));
 }
 
 void ExperimentPlayer::CheckTracks(const std::string& recording, const std::string& what) const {
@@ -135,12 +155,9 @@ void ExperimentPlayer::CheckTracks(const std::string& recording, const std::stri
 
 ExperimentPlayer::Track ExperimentPlayer::MakeTrack(const Recording& recording,
                                                     bool in_robot_frame) const {
-  Track track{&recording,
-              Eigen::Isometry3d::Identity(),
-              FrameOf(experiment_, recording),
+  Track track{&recording, Eigen::Isometry3d::Identity(), FrameOf(experiment_, recording),
               experiment_.markers_sigma_m.value_or(Eigen::Vector3d::Zero()),
-              EventTimes(TimesOfMarkers(recording), recording),
-              nullptr};
+              EventTimes(TimesOfMarkers(recording), recording)};
   if (!in_robot_frame || track.frame == MeasurementFrame::kRobot) return track;
   const auto pose = experiment::RobotFromMarkers(experiment_, recording);
   if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
@@ -162,8 +179,8 @@ std::optional<Event> ExperimentPlayer::Next() {
   if (track_ == tracks_.size()) return std::nullopt;
   const Track& track = tracks_[track_];
   const double t_s = track.times_s[event_++];
-  Event event{track.recording->name, t_s, CablesAt(*track.recording, t_s), {}, {}};
-  if (track.images) {
+  Event event{track.recording->name, t_s, CablesAt(*track.recording, t_s)};
+  if (plays_images_) {
     AddImages(track, t_s, &event);
     return event;
   }
@@ -176,10 +193,18 @@ std::optional<Event> ExperimentPlayer::Next() {
 }
 
 void ExperimentPlayer::AddImages(const Track& track, double t_s, Event* event) {
-  const auto& frames = track.images->frames;
-  if (frame_ == frames.size() || SecondsOf(frames[frame_]) != t_s) return;
-  event->images = ImageSet{track.images.get(), frame_, frames[frame_].t_ns, track.T_robot_camera};
-  ++frame_;
+  if (frame_ == track.frames.size() || SecondsOf(track.frames[frame_].t_ns) != t_s) return;
+  const experiment::JointFrame& frame = track.frames[frame_++];
+  event->t_ns = frame.t_ns;
+  for (std::size_t k = 0; k < frame.frames.size(); ++k) {
+    if (!frame.frames[k]) continue;
+    const CameraTrack& camera = track.cameras[k];
+    const std::size_t index = *frame.frames[k];
+    const ImageSet set{camera.images.get(), index, camera.images->frames[index].t_ns,
+                       camera.T_robot_camera};
+    if (k == 0) event->images = set;
+    if (k > 0) event->further.push_back({further_cameras_[k - 1], set});
+  }
 }
 
 MarkerSet ExperimentPlayer::MarkersOf(const Track& track,

@@ -13,6 +13,7 @@
 
 #include "libs/core/config_node.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/experiment/images/joint_frames.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -51,6 +52,12 @@ struct ImageSet {
   std::optional<Eigen::Isometry3d> T_robot_camera = {};  ///< nullopt: the experiment has none
 };
 
+/// The same of a camera beside the first.
+struct FurtherImages {
+  std::string camera;
+  ImageSet images;
+};
+
 /// What happened at one time of a recording: cable inputs (linear between the rows of
 /// actuation.csv), and the markers, or images, where they were taken at that time.
 struct Event {
@@ -58,14 +65,16 @@ struct Event {
   double t_s = 0.0;
   std::vector<CableInput> cables;  ///< empty: the recording has no actuation.csv
   std::optional<MarkerSet> markers = {};
-  std::optional<ImageSet> images = {};
+  std::optional<ImageSet> images = {};      ///< of the first camera
+  std::vector<FurtherImages> further = {};  ///< of the others that belong to the same frame
+  std::optional<std::int64_t> t_ns = {};    ///< of the frame, where it has images
 
-  bool has_frame() const { return markers || images; }
+  bool has_frame() const { return markers || t_ns; }
 };
 
 /// Turns an experiment into events: recording after recording in the order of their names, each in
 /// the order of time, with one event for each frame (of markers, or of images) and each row of
-/// actuation.csv.
+/// actuation.csv. Images of several cameras are one frame where their times are (JoinFrames).
 class ExperimentPlayer {
  public:
   /// `recording`: the only one to play; empty: all that have markers. `in_robot_frame`: markers are
@@ -91,19 +100,28 @@ class ExperimentPlayer {
 
   bool has_cables() const;
   bool plays_images() const { return plays_images_; }
+  /// Names of the cameras beside the first whose images are played.
+  const std::vector<std::string>& further_cameras() const { return further_cameras_; }
   /// Name of the folder, and the properties of its camera.
   const experiment::Experiment& experiment() const { return experiment_; }
 
  private:
+  /// The images of one camera in a recording.
+  struct CameraTrack {
+    std::unique_ptr<experiment::RgbdSequence> images;  ///< stays where it is: events point to it;
+                                                       ///< nullptr: it has none there
+    std::optional<Eigen::Isometry3d> T_robot_camera = {};
+  };
+
   /// A recording as it is played.
   struct Track {
     const experiment::Recording* recording;
     Eigen::Isometry3d T_frame_measured;
     experiment::MeasurementFrame frame;
     Eigen::Vector3d sigma_m;
-    std::vector<double> times_s;                       ///< of all events, rising
-    std::unique_ptr<experiment::RgbdSequence> images;  ///< stays where it is: events point to it
-    std::optional<Eigen::Isometry3d> T_robot_camera = {};        ///< of the images
+    std::vector<double> times_s;                      ///< of all events, rising
+    std::vector<CameraTrack> cameras = {};            ///< of the images, the first camera in front
+    std::vector<experiment::JointFrame> frames = {};  ///< of these cameras
     std::optional<geometry::PoseStandardError> pose_error = {};  ///< of T_frame_measured
   };
 
@@ -113,10 +131,14 @@ class ExperimentPlayer {
   Track MakeTrack(const experiment::Recording& recording, bool in_robot_frame) const;
   MarkerSet MarkersOf(const Track& track, const experiment::MarkerFrame& frame) const;
 
+  CameraTrack OpenCamera(const experiment::Experiment& experiment,
+                         const experiment::Recording& recording, const ConfigLoader& load) const;
+  void AddTrackOfImages(const experiment::Recording& recording, const ConfigLoader& load);
   void AddImages(const Track& track, double t_s, Event* event);
 
   experiment::Experiment experiment_;
   bool plays_images_ = false;
+  std::vector<std::string> further_cameras_;
   std::vector<Track> tracks_;
   size_t track_ = 0;
   size_t event_ = 0;

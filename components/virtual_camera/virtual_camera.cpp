@@ -86,15 +86,22 @@ void VirtualCamera::Take(const View& view, rgbd::RgbdFrame* frame) {
 
 const rgbd::RangeImage& VirtualCamera::true_range() const { return parts_->truth; }
 
+std::unique_ptr<VirtualCamera> MakeCamera(const scenario::Scenario& scenario, std::size_t number,
+                                          const RobotSurface& robot_surface,
+                                          const std::vector<scenario::ActiveEffect>& effects,
+                                          std::uint64_t seed) {
+  constexpr std::uint64_t kApart = 0x9E3779B97F4A7C15;  // of seeds, that no two runs share one
+  const auto& acting = number == 0 ? effects : std::vector<scenario::ActiveEffect>();
+  return std::make_unique<VirtualCamera>(scenario.WithCamera(number), robot_surface, acting,
+                                         seed + number * kApart);
+}
+
 std::vector<std::unique_ptr<VirtualCamera>> MakeCameras(
     const scenario::Scenario& scenario, const RobotSurface& robot_surface,
     const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed) {
-  constexpr std::uint64_t kApart = 0x9E3779B97F4A7C15;  // of seeds, that no two runs share one
   std::vector<std::unique_ptr<VirtualCamera>> cameras;
   for (std::size_t k = 0; k <= scenario.further_cameras.size(); ++k) {
-    const auto& acting = k == 0 ? effects : std::vector<scenario::ActiveEffect>();
-    cameras.push_back(std::make_unique<VirtualCamera>(scenario.WithCamera(k), robot_surface, acting,
-                                                      seed + k * kApart));
+    cameras.push_back(MakeCamera(scenario, k, robot_surface, effects, seed));
   }
   return cameras;
 }

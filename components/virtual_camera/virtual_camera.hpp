@@ -55,8 +55,13 @@ class VirtualCamera {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The scenario's camera and its further ones, in this order, each with noise and bias of its own.
-/// Effects act on the first.
+/// The camera of that number, 0 the scenario's camera, then its further ones, with noise and bias
+/// of its own. Effects act on the first.
+std::unique_ptr<VirtualCamera> MakeCamera(const scenario::Scenario& scenario, std::size_t number,
+                                          const RobotSurface& robot_surface,
+                                          const std::vector<scenario::ActiveEffect>& effects,
+                                          std::uint64_t seed);
+/// All of them, in this order.
 std::vector<std::unique_ptr<VirtualCamera>> MakeCameras(
     const scenario::Scenario& scenario, const RobotSurface& robot_surface,
     const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed);

@@ -99,9 +99,10 @@ Message<idl::sensor_msgs::CameraInfo> ToCameraInfo(const rgbd::CameraModel& came
 
 Message<idl::palpate_msgs::CameraSetup> ToCameraSetup(const rgbd::RgbdCamera& camera,
                                                       const CameraIdentity& identity,
-                                                      std::int64_t stamp_ns) {
+                                                      std::int64_t stamp_ns,
+                                                      std::string_view depth_frame) {
   Message<idl::palpate_msgs::CameraSetup> setup;
-  SetHeader(setup->header, stamp_ns, geometry::kCameraDepthOpticalFrame);
+  SetHeader(setup->header, stamp_ns, depth_frame);
   setup->epoch = identity.epoch;
   SetText(setup->device, identity.device);
   SetText(setup->model, identity.model);

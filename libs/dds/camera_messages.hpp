@@ -9,6 +9,7 @@
 
 #include "libs/core/status.hpp"
 #include "libs/dds/message.hpp"
+#include "libs/geometry/frames.hpp"
 #include "libs/rgbd/image.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "palpate_msgs/msg/CameraSetup.hpp"
@@ -64,8 +65,8 @@ struct CameraIdentity {
 
 /// The hash is of all but header, epoch and itself, and of both lenses: equal hashes mean that
 /// nothing about the camera has changed.
-Message<idl::palpate_msgs::CameraSetup> ToCameraSetup(const rgbd::RgbdCamera& camera,
-                                                      const CameraIdentity& identity,
-                                                      std::int64_t stamp_ns);
+Message<idl::palpate_msgs::CameraSetup> ToCameraSetup(
+    const rgbd::RgbdCamera& camera, const CameraIdentity& identity, std::int64_t stamp_ns,
+    std::string_view depth_frame = geometry::kCameraDepthOpticalFrame);
 
 }  // namespace palpate::dds

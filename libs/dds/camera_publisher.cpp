@@ -7,40 +7,38 @@
 
 namespace palpate::dds {
 
-CameraPublisher::CameraPublisher(Participant& participant, const std::function<void()>& on_change)
-    : depth_{participant.CreateWriter(kDepthImageTopic, on_change)},
-      color_{participant.CreateWriter(kColorImageTopic, on_change)},
-      depth_camera_{participant.CreateWriter(kDepthCameraInfoTopic)},
-      color_camera_{participant.CreateWriter(kColorCameraInfoTopic)},
-      info_{participant.CreateWriter(kFrameInfoTopic, on_change)},
-      setup_{participant.CreateWriter(kCameraSetupTopic)},
+CameraPublisher::CameraPublisher(Participant& participant, const std::function<void()>& on_change,
+                                 const std::string& camera)
+    : of_{TopicsOf(camera)},
+      depth_{participant.CreateWriter(of_.depth, on_change, camera)},
+      color_{participant.CreateWriter(of_.color, on_change, camera)},
+      depth_camera_{participant.CreateWriter(of_.depth_lens, {}, camera)},
+      color_camera_{participant.CreateWriter(of_.color_lens, {}, camera)},
+      info_{participant.CreateWriter(of_.frame_info, on_change, camera)},
+      setup_{participant.CreateWriter(of_.setup, {}, camera)},
       transforms_{participant} {}
 
 bool CameraPublisher::PublishCamera(const rgbd::RgbdCamera& camera, const CameraIdentity& identity,
                                     std::int64_t stamp_ns,
                                     const std::optional<Eigen::Isometry3d>& T_robot_camera) {
-  bool sent = setup_.Write(ToCameraSetup(camera, identity, stamp_ns));
-  sent &=
-      depth_camera_.Write(ToCameraInfo(camera.depth, stamp_ns, geometry::kCameraDepthOpticalFrame));
+  bool sent = setup_.Write(ToCameraSetup(camera, identity, stamp_ns, of_.depth_frame));
+  sent &= depth_camera_.Write(ToCameraInfo(camera.depth, stamp_ns, of_.depth_frame));
   if (T_robot_camera) {
-    sent &= transforms_.Set(geometry::kRobotFrame, geometry::kCameraDepthOpticalFrame,
-                            *T_robot_camera, stamp_ns);
+    sent &= transforms_.Set(geometry::kRobotFrame, of_.depth_frame, *T_robot_camera, stamp_ns);
   }
   if (camera.color.width_px == 0) return sent;
   if (!camera.color_registered) {
-    sent &= transforms_.Set(geometry::kCameraDepthOpticalFrame, geometry::kCameraColorOpticalFrame,
-                            camera.T_depth_color, stamp_ns);
+    sent &= transforms_.Set(of_.depth_frame, of_.color_frame, camera.T_depth_color, stamp_ns);
   }
-  return color_camera_.Write(ToCameraInfo(camera.color, stamp_ns, ColorFrameId(camera))) && sent;
+  return color_camera_.Write(ToCameraInfo(camera.color, stamp_ns, ColorFrame(camera))) && sent;
 }
 
 bool CameraPublisher::PublishFrame(const rgbd::RgbdCamera& camera, const rgbd::RgbdFrame& images,
                                    std::int64_t stamp_ns,
                                    const idl::palpate_msgs::FrameInfo& info) {
-  bool sent =
-      depth_.Write(depth_message_.Of(images.depth, stamp_ns, geometry::kCameraDepthOpticalFrame));
+  bool sent = depth_.Write(depth_message_.Of(images.depth, stamp_ns, of_.depth_frame));
   if (!images.color.empty()) {
-    sent &= color_.Write(color_message_.Of(images.color, stamp_ns, ColorFrameId(camera)));
+    sent &= color_.Write(color_message_.Of(images.color, stamp_ns, ColorFrame(camera)));
   }
   return info_.Write(info) && sent;
 }

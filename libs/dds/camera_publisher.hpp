@@ -10,6 +10,7 @@
 #include <string>
 
 #include "libs/dds/camera_messages.hpp"
+#include "libs/dds/camera_topics.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/transforms.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
@@ -20,7 +21,10 @@ namespace palpate::dds {
 /// All functions return false where DDS did not take all of it.
 class CameraPublisher {
  public:
-  explicit CameraPublisher(Participant& participant, const std::function<void()>& on_change = {});
+  /// `camera`: name of a camera beside the first; empty: the first. Throws InputError for a name
+  /// that is none.
+  explicit CameraPublisher(Participant& participant, const std::function<void()>& on_change = {},
+                           const std::string& camera = {});
 
   /// Set-up and lenses; on /tf_static the place of a colour camera beside the depth camera and,
   /// where it is known, that of the depth camera. Before the frames of an epoch.
@@ -35,7 +39,9 @@ class CameraPublisher {
   [[nodiscard]] bool WaitUntilReceived(std::chrono::nanoseconds at_most);
   /// The name of the depth image's topic.
   const std::string& depth_topic() const { return depth_.ros_name(); }
-  /// Of /camera/frame_info.
+  /// The frame of the depth image.
+  const std::string& depth_frame() const { return of_.depth_frame; }
+  /// Of the frame info.
   std::uint32_t readers() const { return info_.matched(); }
   /// Whether images and frame info all have a reader.
   bool is_read() const {
@@ -43,6 +49,12 @@ class CameraPublisher {
   }
 
  private:
+  /// Registered colour is in the depth camera's frame.
+  const std::string& ColorFrame(const rgbd::RgbdCamera& camera) const {
+    return camera.color_registered ? of_.depth_frame : of_.color_frame;
+  }
+
+  CameraTopics of_;
   Writer<idl::sensor_msgs::Image> depth_;
   Writer<idl::sensor_msgs::Image> color_;
   Writer<idl::sensor_msgs::CameraInfo> depth_camera_;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "libs/core/check.hpp"
@@ -28,19 +29,30 @@ struct Point {
 };
 static_assert(sizeof(Point) == 20);
 
-constexpr std::array<std::string_view, 5> kFields = {"x", "y", "z", "rgb", "sigma"};
+constexpr std::array<std::string_view, 6> kFields = {"x", "y", "z", "rgb", "sigma", "camera"};
+constexpr std::size_t kFieldsOfOneCamera = 5;
+/// Of a point of several cameras.
+constexpr std::size_t kJoinedStep = sizeof(Point) + sizeof(std::uint32_t);
+
+std::uint8_t TypeOf(std::size_t field) {
+  return field < kFieldsOfOneCamera ? sensor_msgs_msg_PointField_Constants_FLOAT32
+                                    : sensor_msgs_msg_PointField_Constants_UINT32;
+}
 
 Status CheckLayout(const idl::sensor_msgs::PointCloud2& message) {
-  bool fits = message.fields._length == kFields.size() && message.point_step == sizeof(Point) &&
-              !message.is_bigendian;
-  for (std::uint32_t i = 0; fits && i < kFields.size(); ++i) {
+  const std::size_t fields = message.fields._length;
+  bool fits = (fields == kFieldsOfOneCamera || fields == kFields.size()) &&
+              message.point_step == 4 * fields && !message.is_bigendian;
+  for (std::uint32_t i = 0; fits && i < fields; ++i) {
     const auto& field = message.fields._buffer[i];
     fits = Text(field.name) == kFields[i] && field.offset == 4 * i && field.count == 1 &&
-           field.datatype == sensor_msgs_msg_PointField_Constants_FLOAT32;
+           field.datatype == TypeOf(i);
   }
-  if (!fits) return Invalid("a cloud of another layout than x, y, z, rgb, sigma (FLOAT32)");
+  if (!fits) {
+    return Invalid("a cloud of another layout than x, y, z, rgb, sigma (FLOAT32), camera (UINT32)");
+  }
   const std::uint64_t points = std::uint64_t{message.width} * message.height;
-  if (message.height != 1 || message.data._length != points * sizeof(Point)) {
+  if (message.height != 1 || message.data._length != points * message.point_step) {
     return Invalid("a cloud of " + std::to_string(message.width) + " x " +
                    std::to_string(message.height) + " points and " +
                    std::to_string(message.data._length) + " bytes");
@@ -55,31 +67,29 @@ bool IsUsable(const Point& point) {
   return std::isfinite(point.sigma_m) && point.sigma_m > 0.0f;
 }
 
-void SetFields(idl::sensor_msgs::PointCloud2& message) {
-  Resize(message.fields, kFields.size());
-  for (std::uint32_t i = 0; i < kFields.size(); ++i) {
+void SetFields(std::size_t count, idl::sensor_msgs::PointCloud2& message) {
+  Resize(message.fields, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
     auto& field = message.fields._buffer[i];
     SetText(field.name, kFields[i]);
     field.offset = 4 * i;
-    field.datatype = sensor_msgs_msg_PointField_Constants_FLOAT32;
+    field.datatype = TypeOf(i);
     field.count = 1;
   }
 }
 
-}  // namespace
-
-Message<idl::sensor_msgs::PointCloud2> ToPointCloud2(const rgbd::SensedCloud& cloud,
-                                                     std::int64_t stamp_ns,
-                                                     std::string_view frame_id) {
+/// With room for `fields` of each point, of which all but the camera are set.
+Message<idl::sensor_msgs::PointCloud2> MessageOf(const rgbd::SensedCloud& cloud, std::size_t fields,
+                                                 std::int64_t stamp_ns, std::string_view frame_id) {
   const Eigen::Index count = cloud.Count();
   PALPATE_CHECK(cloud.sigma_m.size() == count, cloud.sigma_m.size(), count);
   PALPATE_CHECK(cloud.colors_rgb.size() == static_cast<std::size_t>(3 * count), count);
   Message<idl::sensor_msgs::PointCloud2> message;
   SetHeader(message->header, stamp_ns, frame_id);
-  SetFields(*message);
+  SetFields(fields, *message);
   message->height = 1;
   message->width = static_cast<std::uint32_t>(count);
-  message->point_step = sizeof(Point);
+  message->point_step = static_cast<std::uint32_t>(4 * fields);
   message->row_step = message->width * message->point_step;
   message->is_dense = true;
   Resize(message->data, message->row_step);
@@ -89,23 +99,37 @@ Message<idl::sensor_msgs::PointCloud2> ToPointCloud2(const rgbd::SensedCloud& cl
     std::memcpy(point.position_m.data(), cloud.points_m.col(i).data(), sizeof(point.position_m));
     point.rgb = std::uint32_t{color[0]} << 16 | std::uint32_t{color[1]} << 8 | color[2];
     point.sigma_m = cloud.sigma_m[i];
-    std::memcpy(message->data._buffer + sizeof(Point) * static_cast<std::size_t>(i), &point,
+    std::memcpy(message->data._buffer + message->point_step * static_cast<std::size_t>(i), &point,
                 sizeof(Point));
   }
   return message;
 }
 
-Status FromPointCloud2(const idl::sensor_msgs::PointCloud2& message, rgbd::SensedCloud* cloud) {
-  if (Status layout = CheckLayout(message); !layout.ok()) return layout;
-  const auto count = ToIndex(message.width);
+/// Numbers of the cameras of all points.
+std::vector<std::uint32_t> CamerasOf(const idl::sensor_msgs::PointCloud2& message) {
+  std::vector<std::uint32_t> cameras(message.width, 0);
+  if (message.point_step != kJoinedStep) return cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    std::memcpy(&cameras[i], message.data._buffer + kJoinedStep * i + sizeof(Point),
+                sizeof(std::uint32_t));
+  }
+  return cameras;
+}
+
+/// Takes the points `chosen` of a message of known layout.
+Status TakePoints(const idl::sensor_msgs::PointCloud2& message,
+                  const std::vector<std::size_t>& chosen, rgbd::SensedCloud* cloud) {
+  const Eigen::Index count = ToIndex(chosen.size());
   cloud->points_m.resize(3, count);
   cloud->sigma_m.resize(count);
-  cloud->colors_rgb.resize(static_cast<std::size_t>(3 * count));
+  cloud->colors_rgb.resize(3 * chosen.size());
   for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t number = chosen[At(i)];
     Point point;
-    std::memcpy(&point, message.data._buffer + sizeof(Point) * static_cast<std::size_t>(i),
-                sizeof(Point));
-    if (!IsUsable(point)) return Invalid("point " + std::to_string(i) + " of a cloud is no number");
+    std::memcpy(&point, message.data._buffer + message.point_step * number, sizeof(Point));
+    if (!IsUsable(point)) {
+      return Invalid("point " + std::to_string(number) + " of a cloud is no number");
+    }
     std::memcpy(cloud->points_m.col(i).data(), point.position_m.data(), sizeof(point.position_m));
     cloud->sigma_m[i] = point.sigma_m;
     std::uint8_t* color = cloud->colors_rgb.data() + 3 * i;
@@ -114,6 +138,44 @@ Status FromPointCloud2(const idl::sensor_msgs::PointCloud2& message, rgbd::Sense
     color[2] = static_cast<std::uint8_t>(point.rgb);
   }
   return Status::Ok();
+}
+
+}  // namespace
+
+Message<idl::sensor_msgs::PointCloud2> ToPointCloud2(const rgbd::SensedCloud& cloud,
+                                                     std::int64_t stamp_ns,
+                                                     std::string_view frame_id) {
+  return MessageOf(cloud, kFieldsOfOneCamera, stamp_ns, frame_id);
+}
+
+Message<idl::sensor_msgs::PointCloud2> ToJoinedPointCloud2(const JoinedCloud& cloud,
+                                                           std::int64_t stamp_ns,
+                                                           std::string_view frame_id) {
+  PALPATE_CHECK(ToIndex(cloud.cameras.size()) == cloud.points.Count(), cloud.cameras.size());
+  auto message = MessageOf(cloud.points, kFields.size(), stamp_ns, frame_id);
+  for (std::size_t i = 0; i < cloud.cameras.size(); ++i) {
+    std::memcpy(message->data._buffer + kJoinedStep * i + sizeof(Point), &cloud.cameras[i],
+                sizeof(std::uint32_t));
+  }
+  return message;
+}
+
+Status FromPointCloud2(const idl::sensor_msgs::PointCloud2& message, rgbd::SensedCloud* cloud) {
+  if (Status layout = CheckLayout(message); !layout.ok()) return layout;
+  const std::vector<std::uint32_t> cameras = CamerasOf(message);
+  std::vector<std::size_t> of_first;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (cameras[i] == 0) of_first.push_back(i);
+  }
+  return TakePoints(message, of_first, cloud);
+}
+
+Status FromJoinedPointCloud2(const idl::sensor_msgs::PointCloud2& message, JoinedCloud* cloud) {
+  if (Status layout = CheckLayout(message); !layout.ok()) return layout;
+  cloud->cameras = CamerasOf(message);
+  std::vector<std::size_t> all(message.width);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return TakePoints(message, all, &cloud->points);
 }
 
 }  // namespace palpate::dds

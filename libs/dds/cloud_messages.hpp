@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "libs/core/status.hpp"
 #include "libs/dds/message.hpp"
@@ -19,8 +20,24 @@ Message<idl::sensor_msgs::PointCloud2> ToPointCloud2(const rgbd::SensedCloud& cl
                                                      std::int64_t stamp_ns,
                                                      std::string_view frame_id);
 
-/// The same numbers again, bit by bit. kInvalidInput for another layout, data that do not go with
-/// the size, a point that is not finite, a sigma that is not above 0.
+/// The same numbers again, bit by bit; of a cloud of several cameras, the points of the first.
+/// kInvalidInput for another layout, data that do not go with the size, a point that is not finite,
+/// a sigma that is not above 0.
 Status FromPointCloud2(const idl::sensor_msgs::PointCloud2& message, rgbd::SensedCloud* cloud);
+
+/// Points of several cameras in one frame. `sigma_m` is along the optical axis of the camera that
+/// saw the point.
+struct JoinedCloud {
+  rgbd::SensedCloud points;
+  std::vector<std::uint32_t> cameras;  ///< [n] number of the camera that saw it; 0: the first
+};
+
+/// 24 bytes a point: as above, then camera (UINT32).
+Message<idl::sensor_msgs::PointCloud2> ToJoinedPointCloud2(const JoinedCloud& cloud,
+                                                           std::int64_t stamp_ns,
+                                                           std::string_view frame_id);
+
+/// The same again; a cloud without `camera` is of the first. kInvalidInput as above.
+Status FromJoinedPointCloud2(const idl::sensor_msgs::PointCloud2& message, JoinedCloud* cloud);
 
 }  // namespace palpate::dds

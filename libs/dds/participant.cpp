@@ -36,6 +36,18 @@ TopicTable WithRawKept(const TopicTable& table, bool remote_raw) {
   return TopicTable(std::move(rows));
 }
 
+/// Whether the node uses `topic` under this name. Of a name with a part that is known at run time
+/// only, rules hold that rename no single one.
+bool IsNameOf(const TopicSettings& topic, const std::string& ros_name, const TopicNames& names) {
+  if (topic.name.find("<name>") == topic.name.npos) return names.Resolve(topic) == ros_name;
+  const std::string any = names.Resolve(topic, "*");
+  const std::size_t before = any.find('*');
+  const std::size_t after = any.size() - before - 1;
+  if (ros_name.size() <= before + after) return false;
+  const std::string part = ros_name.substr(before, ros_name.size() - before - after);
+  return names.Resolve(topic, part) == ros_name;
+}
+
 }  // namespace
 
 Participant::Participant(const ParticipantSettings& settings, TopicTable table)
@@ -64,10 +76,11 @@ bool Participant::IsData(std::string_view topic_name) const {
 }
 
 RawWriterTopic Participant::KeptHere(RawWriterTopic topic) const {
+  constexpr std::string_view kPrefix = "rt/";
+  if (!topic.dds_topic.starts_with(kPrefix)) return topic;
+  const std::string ros_name = topic.dds_topic.substr(kPrefix.size() - 1);
   for (const TopicSettings& row : table_.topics()) {
-    if (row.this_host_only && DdsTopicName(names_.Resolve(row)) == topic.dds_topic) {
-      topic.this_host_only = true;
-    }
+    if (row.this_host_only && IsNameOf(row, ros_name, names_)) topic.this_host_only = true;
   }
   return topic;
 }

@@ -3,6 +3,7 @@
 
 #include "libs/dds/topics.hpp"
 
+#include "libs/dds/camera_topics.hpp"
 #include "libs/dds/driver_topics.hpp"
 
 namespace palpate::dds {
@@ -56,6 +57,13 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kExperimentPhaseTopic),
           NameAndType(kExperimentLoadTopic),
           NameAndType(kRobotDescriptionTopic),
+          NameAndType(kFurtherDepthImageTopic),
+          NameAndType(kFurtherDepthCameraInfoTopic),
+          NameAndType(kFurtherColorImageTopic),
+          NameAndType(kFurtherColorCameraInfoTopic),
+          NameAndType(kFurtherFrameInfoTopic),
+          NameAndType(kFurtherCameraSetupTopic),
+          NameAndType(kFurtherPerceptionReportTopic),
           NameAndType(kPackedDepthTopic),
           NameAndType(kPackedColorTopic),
           NameAndType(kTfTopic)};

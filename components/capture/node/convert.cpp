@@ -6,15 +6,8 @@
 #include "libs/core/check.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
-#include "libs/geometry/frames.hpp"
 
 namespace palpate::capture {
-
-namespace {
-
-std::string_view DepthFrameId() { return geometry::kCameraDepthOpticalFrame; }
-
-}  // namespace
 
 std::string_view NameOf(ClockSource source) {
   switch (source) {
@@ -42,11 +35,11 @@ std::string_view NameOf(SourceState state) {
 }
 
 void SetFrameInfo(const SourceFrame& frame, const SourceHealth& health, std::uint64_t counter,
-                  idl::palpate_msgs::FrameInfo* message) {
+                  std::string_view depth_frame, idl::palpate_msgs::FrameInfo* message) {
   const FrameFacts& facts = frame.facts;
   message->header.stamp = dds::TimeFromNs(facts.stamp_host_ns);
-  if (dds::Text(message->header.frame_id) != DepthFrameId()) {
-    dds::SetText(message->header.frame_id, DepthFrameId());
+  if (dds::Text(message->header.frame_id) != depth_frame) {
+    dds::SetText(message->header.frame_id, depth_frame);
   }
   if (dds::Text(message->device) != health.device) dds::SetText(message->device, health.device);
   if (dds::Text(message->clock_source) != NameOf(facts.clock_source)) {

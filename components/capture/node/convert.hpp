@@ -16,8 +16,8 @@ std::string_view NameOf(ClockSource source);
 /// "discover", "open", "configure", "stream", "stale", "lost", "ended".
 std::string_view NameOf(SourceState state);
 
-/// Counters since the start are those of `health`.
+/// Counters since the start are those of `health`. `depth_frame`: of the depth image.
 void SetFrameInfo(const SourceFrame& frame, const SourceHealth& health, std::uint64_t counter,
-                  idl::palpate_msgs::FrameInfo* message);
+                  std::string_view depth_frame, idl::palpate_msgs::FrameInfo* message);
 
 }  // namespace palpate::capture

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "components/capture/frame_source.hpp"
 #include "components/capture/node/convert.hpp"
@@ -16,8 +17,10 @@ namespace palpate::capture {
 /// setup whenever the epoch changes. To be used by one thread: writing 2 MB takes up to 25 ms.
 class FramePublisher {
  public:
+  /// `camera`: name of a camera beside the first; empty: the first. Throws InputError for a name
+  /// that is none.
   FramePublisher(dds::Participant& participant, const std::function<void()>& on_change,
-                 double subpixel_sigma_px);
+                 double subpixel_sigma_px, const std::string& camera);
 
   /// False where DDS did not take all of it.
   bool Publish(const SourceFrame& frame, const SourceHealth& health);

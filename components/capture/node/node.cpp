@@ -31,17 +31,24 @@ Status StatusOf(const SourceHealth& health) {
   }
 }
 
+/// `name` of the node or component, of a further camera with that camera's name behind it.
+std::string WithCamera(const std::string& name, const NodeConfig& config) {
+  return config.camera_name.empty() ? name : name + "_" + config.camera_name;
+}
+
 }  // namespace
 
 CaptureNode::CaptureNode(const NodeConfig& config, std::unique_ptr<FrameSource> source,
                          int domain_id, dds::TopicTable table, dds::NodeLog::ProcessLog process_log)
     : step_{config.source == "replay" && config.replay.clock == "step"},
       wait_for_reader_{config.wait_for_reader},
-      participant_{dds::ParticipantOf(config.dds, "palpate_capture", domain_id), std::move(table)},
+      participant_{dds::ParticipantOf(config.dds, WithCamera("palpate_capture", config), domain_id),
+                   std::move(table)},
       loop_{participant_},
       log_{participant_, std::move(process_log)},
-      health_{participant_, "capture", Clock::now()},
-      publisher_{participant_, [this] { loop_.Wake(); }, config.subpixel_sigma_px},
+      health_{participant_, WithCamera("capture", config), Clock::now()},
+      publisher_{participant_, [this] { loop_.Wake(); }, config.subpixel_sigma_px,
+                 config.camera_name},
       source_{std::move(source)},
       next_report_{Clock::now()} {
   loop_.Every(kLookPeriod, [this] { WatchSource(); });
@@ -59,7 +66,7 @@ void CaptureNode::Stop() {
 
 void CaptureNode::Run() {
   if (wait_for_reader_) {
-    log_.Write(Severity::kInfo, "waiting for a reader of /camera/frame_info");
+    log_.Write(Severity::kInfo, "waiting for a reader of the frame info");
     loop_.DispatchUntil([this] { return publisher_.readers() > 0; }, Clock::time_point::max());
   }
   if (loop_.stopped()) return;

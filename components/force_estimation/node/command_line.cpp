@@ -11,6 +11,7 @@
 #include "libs/app/log.hpp"
 #include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/dds/further_cameras.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_body.hpp"
@@ -28,6 +29,21 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
   for (const std::string& note : body.notes) app::LogInfo("{}", note);
   if (calibration != nullptr) robot::ApplyGeometry(*calibration, &body);
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
+}
+
+/// The cameras beside the first, with the poses of the calibration where the settings give none. A
+/// pose in the settings overrides that of the calibration and its depth bias.
+std::vector<dds::FurtherCamera> FurtherCamerasOf(const NodeConfig& config,
+                                                 robot::CalibrationFile* calibration) {
+  auto cameras = dds::ReadFurtherCameras(config.cameras, app::ParseYaml);
+  for (dds::FurtherCamera& camera : cameras) {
+    for (robot::CalibratedCamera& known : calibration->cameras) {
+      if (known.name != camera.name) continue;
+      if (camera.T_robot_camera) known.depth_bias.reset();
+      if (!camera.T_robot_camera) camera.T_robot_camera = known.pose.T_robot_camera;
+    }
+  }
+  return cameras;
 }
 
 /// Applies the calibration to the model, and for source=shape its camera pose to the settings. A
@@ -87,9 +103,11 @@ std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
     model = LoadRobot(command.robot, solver, &calibration);
     Calibrate(&calibration, model.get(), &config);
   }
+  const auto cameras = FurtherCamerasOf(config, &calibration);
   return std::make_unique<ForceEstimationNode>(
       config, std::move(model), calibration, command.options.domain_id,
-      dds::LoadTopicTable(config.dds, app::LoadYaml, app::ParseYaml), app::Log);
+      dds::LoadTopicTable(config.dds, app::LoadYaml, app::ParseYaml), app::Log, PipelineMaker(),
+      cameras);
 }
 
 }  // namespace palpate::force_estimation

@@ -14,12 +14,13 @@ bool IsFromShape(const NodeConfig& config) {
   return config.source == "shape" || (config.source == "auto" && !config.camera_pose.empty());
 }
 
-PipelineMaker PipelineMakerOf(const NodeConfig& config, const robot::CalibrationFile& calibration) {
+PipelineMaker PipelineMakerOf(const NodeConfig& config, const robot::CalibrationFile& calibration,
+                              const std::vector<std::string>& cameras) {
   if (IsFromShape(config)) {
     ShapeConfig shape = config.shape;
     if (calibration.depth_bias) shape.untouched_frames = 0;
-    return [config, shape, calibration](robot::RobotModel& model) {
-      return std::make_unique<ShapePipeline>(model, config, shape, calibration);
+    return [config, shape, calibration, cameras](robot::RobotModel& model) {
+      return std::make_unique<ShapePipeline>(model, config, shape, calibration, cameras);
     };
   }
   return [config, calibration](robot::RobotModel& model) {

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "components/force_estimation/node/node_config.hpp"
 #include "components/force_estimation/pipeline/pipeline.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -13,7 +16,9 @@ namespace palpate::force_estimation {
 bool IsFromShape(const NodeConfig& config);
 
 /// MarkerPipeline or ShapePipeline, by the settings, for a model to which `calibration` was
-/// applied. What is made throws InputError for settings that do not fit the robot.
-PipelineMaker PipelineMakerOf(const NodeConfig& config, const robot::CalibrationFile& calibration);
+/// applied. `cameras`: names of those beside the first. What is made throws InputError for settings
+/// that do not fit the robot.
+PipelineMaker PipelineMakerOf(const NodeConfig& config, const robot::CalibrationFile& calibration,
+                              const std::vector<std::string>& cameras = {});
 
 }  // namespace palpate::force_estimation

@@ -46,6 +46,23 @@ std::optional<Eigen::Isometry3d> CameraPose(const NodeConfig& config) {
   return geometry::ReadPose(app::ParseYaml(config.camera_pose, "camera_pose"));
 }
 
+std::vector<dds::FurtherCamera> CheckedCameras(const NodeConfig& config,
+                                               const std::vector<dds::FurtherCamera>& cameras) {
+  if (cameras.empty()) return cameras;
+  if (!IsFromShape(config)) throw InputError("cameras: further cameras need source shape");
+  if (config.camera_pose.empty()) {
+    throw InputError(
+        "cameras: camera_pose, or --calibration with source shape, is required beside further "
+        "cameras");
+  }
+  for (const dds::FurtherCamera& camera : cameras) {
+    if (camera.T_robot_camera) continue;
+    throw InputError("cameras: where is '" + camera.name +
+                     "'? Its pose belongs behind its name, or in the file of --calibration");
+  }
+  return cameras;
+}
+
 std::vector<std::string> GivenContacts(const NodeConfig& config) {
   std::vector<std::string> names;
   for (const ContactSite& site : ParseContactSites(config.contacts)) names.push_back(site.name);
@@ -60,15 +77,18 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
                                          std::unique_ptr<robot::RobotModel> model,
                                          const robot::CalibrationFile& calibration, int domain_id,
                                          dds::TopicTable table,
-                                         dds::NodeLog::ProcessLog process_log, PipelineMaker maker)
+                                         dds::NodeLog::ProcessLog process_log, PipelineMaker maker,
+                                         const std::vector<dds::FurtherCamera>& cameras)
     : config_(config),
+      cameras_(CheckedCameras(config, cameras)),
       participant_(dds::ParticipantOf(config.dds, "palpate_force_estimation", domain_id),
                    std::move(table)),
       loop_(participant_),
       cables_overdue_(loop_.AddAlarm([this] { MatchWithCables(); })),
       log_(participant_, std::move(process_log)),
       health_(participant_, "force_estimation", Clock::now()),
-      worker_(std::move(model), maker ? maker : PipelineMakerOf(config, calibration),
+      worker_(std::move(model),
+              maker ? maker : PipelineMakerOf(config, calibration, dds::NamesOf(cameras)),
               [this] { loop_.Wake(); }),
       cable_names_(worker_.model().ActuatorNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
@@ -110,7 +130,7 @@ void ForceEstimationNode::ExpectInputs() {
 std::unique_ptr<FrameSource> ForceEstimationNode::MakeSource() {
   const auto take = [this](FrameArrival arrival) { Take(std::move(arrival)); };
   if (IsFromShape(config_)) {
-    return std::make_unique<ShapeSource>(participant_, loop_, CameraPose(config_), take);
+    return std::make_unique<ShapeSource>(participant_, loop_, CameraPose(config_), take, cameras_);
   }
   const std::string hint =
       config_.source == "auto"
@@ -180,7 +200,13 @@ void ForceEstimationNode::ExpectPosture(std::int64_t stamp_ns) {
 void ForceEstimationNode::TakeCalibration() {
   for (const CalibrationInput::Verdict& verdict : calibration_.Take()) {
     if (verdict.status.ok()) {
-      Adopt(verdict.calibration);
+      robot::CalibrationFile calibration = verdict.calibration;
+      if (!cameras_.empty()) {
+        // Of cameras that were calibrated together none may move alone.
+        calibration.pose.reset();
+        calibration.depth_bias.reset();
+      }
+      Adopt(calibration);
     } else {
       ++counts_.refused;
       log_.WarnRepeatedly("/calibration refused: " + verdict.status.message());
@@ -208,7 +234,8 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   }
   if (!calibration.moduli.empty()) in_use_.moduli = calibration.moduli;
   calibration_pending_ = std::make_shared<NewCalibration>(
-      calibration, maker_is_given_ ? PipelineMaker() : PipelineMakerOf(config_, in_use_));
+      calibration, maker_is_given_ ? PipelineMaker()
+                                   : PipelineMakerOf(config_, in_use_, dds::NamesOf(cameras_)));
   sequence_pending_ = true;
   log_.Write(Severity::kInfo, "takes the calibration of " + calibration.date_utc + " (" +
                                   calibration.data + ") from the next frame on");
@@ -338,10 +365,14 @@ void ForceEstimationNode::LogForces() {
   }
 }
 
+std::string ForceEstimationNode::NameOfCamera(int camera) const {
+  return camera > 0 ? "camera '" + cameras_[At(camera - 1)].name + "'" : "the camera";
+}
+
 void ForceEstimationNode::LogDrift(const DriftReport& drift) {
   const bool moved = drift.state == DriftReport::State::kMoved;
   log_.Write(moved ? Severity::kWarning : Severity::kInfo,
-             "calibration of the camera: " + ToString(drift.state) +
+             "calibration of " + NameOfCamera(drift.camera) + ": " + ToString(drift.state) +
                  (moved ? ": " + drift.advice : std::string()));
 }
 

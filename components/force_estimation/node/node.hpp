@@ -17,6 +17,7 @@
 #include "components/force_estimation/node/outputs.hpp"
 #include "components/force_estimation/node/worker.hpp"
 #include "libs/core/lateness.hpp"
+#include "libs/dds/further_cameras.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
@@ -31,11 +32,12 @@ class ForceEstimationNode {
  public:
   /// `calibration`: was applied to `model`; older ones on /calibration are stale. Without a date:
   /// none. `maker`: of the pipelines; empty: by the settings. Throws InputError for bad settings,
-  /// RunError where DDS fails.
+  /// RunError where DDS fails. `cameras`: those beside the first, each with its pose.
   ForceEstimationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
                       const robot::CalibrationFile& calibration, int domain_id,
                       dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
-                      PipelineMaker maker = {});
+                      PipelineMaker maker = {},
+                      const std::vector<dds::FurtherCamera>& cameras = {});
 
   /// Returns after Stop().
   void Run() { loop_.Run(); }
@@ -64,6 +66,7 @@ class ForceEstimationNode {
   bool IsSilent() const;
   bool IsOverdue() const;
   Status CurrentStatus();
+  std::string NameOfCamera(int camera) const;
   void LogDrift(const DriftReport& drift);
   void LogBiasFrames(int to_come);
   void LogGap(const GapReport& gap);
@@ -71,6 +74,7 @@ class ForceEstimationNode {
   void LogForces();
 
   NodeConfig config_;
+  std::vector<dds::FurtherCamera> cameras_;  ///< beside the first
   dds::Participant participant_;
   dds::WaitSet loop_;
   dds::Alarm& cables_overdue_;  ///< of the first frame in pending_

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
@@ -16,6 +17,7 @@ struct NodeConfig : Config {
   ShapeConfig shape;
   std::string source = "auto";
   std::string camera_pose;
+  std::vector<std::string> cameras;
   bool follow_calibration = true;
   bool expect_posture = true;
   std::string cable_input = "displacement";
@@ -35,6 +37,11 @@ struct NodeConfig : Config {
     v("camera_pose", camera_pose,
       "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
       "w]}\"; needed for the shape, unless /calibration or /tf say it");
+    v("cameras", cameras,
+      "Depth cameras beside the first, as perception has them: \"NAME: {translation_m: [x, y, z], "
+      "rotation_xyzw: [x, y, z, w]}\", or \"NAME\" where --calibration has its pose; of "
+      "/calibration "
+      "the camera pose and depth bias do not count then");
     v("follow_calibration", follow_calibration,
       "Use camera pose, actuator offsets and moduli of /calibration from the next frame on, "
       "which begins a sequence; false: keep those of the start");

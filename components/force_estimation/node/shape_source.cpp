@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/seconds.hpp"
+#include "libs/dds/camera_topics.hpp"
 #include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/stamp.hpp"
@@ -21,10 +23,39 @@ namespace {
 
 constexpr double kNsPerSecond = 1e9;
 
+/// Sorts points by the camera that saw them, and maps those of further cameras into its frame.
+/// kInvalidInput for a camera beyond `clouds`.
+Status Split(const dds::JoinedCloud& joined, const std::vector<Eigen::Isometry3d>& T_camera_first,
+             std::vector<rgbd::SensedCloud>* clouds) {
+  std::vector<std::vector<Eigen::Index>> columns(clouds->size());
+  for (std::size_t i = 0; i < joined.cameras.size(); ++i) {
+    const std::size_t camera = joined.cameras[i];
+    if (camera >= columns.size()) {
+      return {StatusCode::kInvalidInput, "a point of camera " + std::to_string(camera) +
+                                             ": the settings have " +
+                                             std::to_string(columns.size()) + " cameras"};
+    }
+    columns[camera].push_back(ToIndex(i));
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    rgbd::SensedCloud& cloud = (*clouds)[k];
+    cloud.points_m = joined.points.points_m(Eigen::all, columns[k]);
+    cloud.sigma_m = joined.points.sigma_m(columns[k]);
+    for (const Eigen::Index i : columns[k]) {
+      const auto rgb = joined.points.colors_rgb.begin() + 3 * i;
+      cloud.colors_rgb.insert(cloud.colors_rgb.end(), rgb, rgb + 3);
+    }
+    if (k == 0) continue;
+    cloud.points_m = (T_camera_first[k - 1] * cloud.points_m.cast<double>()).cast<float>().eval();
+  }
+  return Status::Ok();
+}
+
 }  // namespace
 
 ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
-                         const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take)
+                         const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take,
+                         const std::vector<dds::FurtherCamera>& cameras)
     : FrameSource(std::move(take)),
       T_robot_camera_(T_robot_camera),
       clouds_(participant.CreateReader(dds::kRobotCloudTopic)),
@@ -32,8 +63,17 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
       contacts_(participant.CreateReader(dds::kContactsTopic)),
       clock_(participant.clock()) {
   loop.Attach(clouds_, [this] { TakeClouds(); });
-  loop.Attach(reports_, [this] { TakeReports(); });
+  loop.Attach(reports_, [this] { TakeReports(reports_, std::nullopt); });
   loop.Attach(contacts_, [this] { TakeContacts(); });
+  for (const dds::FurtherCamera& camera : cameras) {
+    const std::size_t number = further_.size();
+    PALPATE_CHECK(camera.T_robot_camera.has_value(), camera.name);
+    further_.push_back(std::make_unique<Further>(
+        Further{camera.name, *camera.T_robot_camera,
+                participant.CreateReader(dds::kFurtherPerceptionReportTopic, {}, camera.name)}));
+    loop.Attach(further_.back()->reports,
+                [this, number] { TakeReports(further_[number]->reports, number); });
+  }
   if (T_robot_camera) return;
   transforms_.emplace(Transforms{participant.CreateReader(dds::kTfStaticTopic),
                                  participant.CreateReader(dds::kTfTopic)});
@@ -46,10 +86,29 @@ void ShapeSource::ExpectInputs(dds::InputMonitor& inputs) const {
   inputs.Expect(clouds_, publisher);
   inputs.Expect(reports_, publisher);
   inputs.Expect(contacts_, publisher);
+  for (const auto& camera : further_) inputs.Expect(camera->reports, publisher);
+}
+
+uint32_t ShapeSource::incompatible_qos() const {
+  uint32_t count = clouds_.counters().incompatible_qos + reports_.counters().incompatible_qos +
+                   contacts_.counters().incompatible_qos;
+  for (const auto& camera : further_) count += camera->reports.counters().incompatible_qos;
+  return count;
+}
+
+bool ShapeSource::Parts::is_complete() const {
+  const bool all = std::all_of(further.begin(), further.end(),
+                               [](const auto& of_camera) { return of_camera.has_value(); });
+  return clouds && report && contacts && all;
 }
 
 /// Incomplete frames are dropped: they were taken from the old camera pose.
 void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
+  for (const auto& further : further_) {
+    for (const robot::CalibratedCamera& camera : calibration.cameras) {
+      if (camera.name == further->name) further->depth_bias = camera.depth_bias;
+    }
+  }
   if (!calibration.pose) return;
   T_robot_camera_ = calibration.pose->T_robot_camera;
   is_calibrated_ = true;
@@ -68,8 +127,10 @@ ShapeSource::Parts* ShapeSource::PartsAt(int64_t stamp_ns) {
     pending_.pop_front();
     ++dropped_;
   }
-  pending_.emplace_back().stamp_ns = stamp_ns;
-  return &pending_.back();
+  Parts& parts = pending_.emplace_back();
+  parts.stamp_ns = stamp_ns;
+  parts.further.resize(further_.size());
+  return &parts;
 }
 
 void ShapeSource::TakeClouds() {
@@ -77,42 +138,66 @@ void ShapeSource::TakeClouds() {
     Parts* parts = PartsAt(dds::StampNs(message.header.stamp));
     if (!parts) continue;
     Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
-    if (status.ok()) status = dds::FromPointCloud2(message, &parts->cloud.emplace());
-    if (status.ok()) status = CheckIsNew(message, *parts->cloud);
+    if (status.ok()) status = FromCloud(message, &parts->clouds.emplace());
+    if (status.ok()) status = CheckIsNew(message, *parts->clouds);
     if (!status.ok()) {
-      parts->cloud.emplace();
+      parts->clouds.emplace(1 + further_.size());
       parts->status = {status.code(), "/perception/robot_cloud: " + status.message()};
     }
   }
   HandOverComplete();
 }
 
+/// The points of each camera, in its own frame.
+Status ShapeSource::FromCloud(const idl::sensor_msgs::PointCloud2& message,
+                              std::vector<rgbd::SensedCloud>* clouds) const {
+  clouds->assign(1 + further_.size(), {});
+  if (further_.empty()) return dds::FromPointCloud2(message, &clouds->front());
+  dds::JoinedCloud joined;
+  if (Status status = dds::FromJoinedPointCloud2(message, &joined); !status.ok()) return status;
+  std::vector<Eigen::Isometry3d> T_camera_first;
+  for (const auto& camera : further_) {
+    T_camera_first.push_back(camera->T_robot_camera.inverse() *
+                             T_robot_camera_.value_or(Eigen::Isometry3d::Identity()));
+  }
+  return Split(joined, T_camera_first, clouds);
+}
+
 /// Points that come again under a new stamp are no measurement: forces of them would be those of
 /// the past.
 Status ShapeSource::CheckIsNew(const idl::sensor_msgs::PointCloud2& message,
-                               const rgbd::SensedCloud& cloud) {
-  if (cloud.Count() == 0) return Status::Ok();
+                               const std::vector<rgbd::SensedCloud>& clouds) {
+  Eigen::Index count = 0;
+  double sum_m = 0.0;
+  for (const rgbd::SensedCloud& cloud : clouds) {
+    count += cloud.Count();
+    if (cloud.Count() > 0) sum_m += static_cast<double>(cloud.points_m.row(2).mean());
+  }
+  if (count == 0) return Status::Ok();
   const std::string_view bytes(reinterpret_cast<const char*>(message.data._buffer),
                                message.data._length);
-  if (!repetition_.IsRepeated(bytes, cloud.points_m.row(2).mean())) return Status::Ok();
+  if (!repetition_.IsRepeated(bytes, sum_m)) return Status::Ok();
   return {StatusCode::kStale,
           "the points are those before, bit for bit, under a new stamp: perception is stuck"};
 }
 
-void ShapeSource::TakeReports() {
-  for (const auto& message : reports_.Take()) {
+/// `further`: number of the camera beside the first; nullopt: the report of the whole frame.
+void ShapeSource::TakeReports(dds::Reader<idl::palpate_msgs::PerceptionReport>& reader,
+                              std::optional<std::size_t> further) {
+  for (const auto& message : reader.Take()) {
     const int64_t stamp_ns = dds::StampNs(message.header.stamp);
     Parts* parts = PartsAt(stamp_ns);
     if (!parts) continue;
-    parts->report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device)),
-                            dds::ToPicture(message.picture)},
-                           message.frame_counter,
-                           StatusOfPerception(message),
-                           message.age_s,
-                           {}};
-    const Status status = FromTexture(message, &parts->report->texture);
+    std::optional<Report>& report = further ? parts->further[*further] : parts->report;
+    report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device)),
+                     dds::ToPicture(message.picture)},
+                    message.frame_counter,
+                    StatusOfPerception(message),
+                    message.age_s,
+                    {}};
+    const Status status = FromTexture(message, &report->texture);
     if (!status.ok()) {
-      parts->status = {status.code(), "/perception/report: " + status.message()};
+      parts->status = {status.code(), reader.ros_name() + ": " + status.message()};
     }
   }
   HandOverComplete();
@@ -155,7 +240,7 @@ void ShapeSource::TakeTransforms(dds::Reader<idl::tf2_msgs::TFMessage>& reader) 
 void ShapeSource::HandOverComplete() {
   for (size_t i = 0; i < pending_.size(); ++i) {
     Parts& parts = pending_[i];
-    if (!parts.cloud || !parts.report || !parts.contacts) continue;
+    if (!parts.is_complete()) continue;
     Parts complete = std::move(parts);
     dropped_ += i;
     pending_.erase(pending_.begin(), pending_.begin() + ToIndex(i) + 1);
@@ -200,7 +285,17 @@ Status ShapeSource::Check(const Parts& parts) const {
             "/calibration, and /tf and /tf_static do not join 'robot' with "
             "'camera_depth_optical_frame'"};
   }
-  if (!depth_bias_ || !parts.report->perception.ok()) return Status::Ok();
+  for (std::size_t k = 0; k < further_.size(); ++k) {
+    if (!further_[k]->depth_bias || !parts.further[k]->perception.ok()) continue;
+    const Status status =
+        robot::CheckDepthPicture(*further_[k]->depth_bias, parts.further[k]->origin.picture);
+    if (!status.ok()) {
+      return {status.code(), "camera '" + further_[k]->name + "': " + status.message()};
+    }
+  }
+  // Perception has seen the robot where any camera does.
+  const bool is_seen = further_.empty() || parts.clouds->front().Count() > 0;
+  if (!depth_bias_ || !parts.report->perception.ok() || !is_seen) return Status::Ok();
   return robot::CheckDepthPicture(*depth_bias_, parts.report->origin.picture);
 }
 
@@ -210,9 +305,16 @@ FrameInput ShapeSource::InputOf(Parts parts) const {
   auto& shape = input.frame.emplace<PerceivedShape>();
   shape.perception = parts.report->perception;
   shape.frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
-  shape.frame.views[0].cloud = std::move(*parts.cloud);
+  shape.frame.views.resize(1 + further_.size());
   shape.frame.views[0].T_robot_camera = *T_robot_camera_;
   shape.frame.views[0].texture = std::move(parts.report->texture);
+  for (std::size_t k = 0; k < further_.size(); ++k) {
+    shape.frame.views[k + 1].T_robot_camera = further_[k]->T_robot_camera;
+    shape.frame.views[k + 1].texture = std::move(parts.further[k]->texture);
+  }
+  for (std::size_t k = 0; k < shape.frame.views.size(); ++k) {
+    shape.frame.views[k].cloud = std::move((*parts.clouds)[k]);
+  }
   shape.frame.epoch = parts.report->origin.epoch;
   shape.frame.contacts = std::move(*parts.contacts);
   return input;

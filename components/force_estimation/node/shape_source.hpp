@@ -4,14 +4,17 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/force_estimation/node/frame_source.hpp"
 #include "libs/core/repetition_check.hpp"
 #include "libs/dds/driver_topics.hpp"
+#include "libs/dds/further_cameras.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/transforms.hpp"
 #include "libs/dds/wait_set.hpp"
@@ -20,13 +23,16 @@
 
 namespace palpate::force_estimation {
 
-/// Frames of /perception/robot_cloud, /perception/report and /perception/contacts of one stamp.
+/// Frames of /perception/robot_cloud, /perception/report and /perception/contacts of one stamp, and
+/// of the report of each camera beside the first.
 class ShapeSource : public FrameSource {
  public:
   /// `T_robot_camera`: nullopt: unknown, and frames are refused until SetCalibration gives it, or
-  /// /tf and /tf_static join the robot with the camera.
+  /// /tf and /tf_static join the robot with the camera. `cameras`: those beside the first, each
+  /// with its pose.
   ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
-              const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take);
+              const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take,
+              const std::vector<dds::FurtherCamera>& cameras = {});
 
   /// Frames of other images than the calibration's depth bias is for are refused.
   void SetCalibration(const robot::CalibrationFile& calibration) override;
@@ -37,10 +43,7 @@ class ShapeSource : public FrameSource {
   uint64_t dropped() const override { return dropped_; }
   bool knows_camera_pose() const override { return T_robot_camera_.has_value(); }
   uint32_t writers() const override { return contacts_.matched(); }
-  uint32_t incompatible_qos() const override {
-    return clouds_.counters().incompatible_qos + reports_.counters().incompatible_qos +
-           contacts_.counters().incompatible_qos;
-  }
+  uint32_t incompatible_qos() const override;
 
  private:
   /// Camera and time of a frame.
@@ -60,15 +63,29 @@ class ShapeSource : public FrameSource {
   /// The parts of a frame that have come so far.
   struct Parts {
     int64_t stamp_ns = 0;
-    Status status = Status::Ok();  ///< of the last part that is invalid
-    std::optional<rgbd::SensedCloud> cloud;
+    Status status = Status::Ok();                          ///< of the last part that is invalid
+    std::optional<std::vector<rgbd::SensedCloud>> clouds;  ///< of each camera, in its frame
     std::optional<Report> report;
+    std::vector<std::optional<Report>> further;  ///< of the cameras beside the first
     std::optional<std::vector<SeenContact>> contacts;
+
+    bool is_complete() const;
+  };
+  /// A camera beside the first.
+  struct Further {
+    std::string name;
+    Eigen::Isometry3d T_robot_camera;
+    dds::Reader<idl::palpate_msgs::PerceptionReport> reports;
+    std::optional<robot::CalibratedDepthBias> depth_bias = {};
   };
 
   void TakeClouds();
-  Status CheckIsNew(const idl::sensor_msgs::PointCloud2& message, const rgbd::SensedCloud& cloud);
-  void TakeReports();
+  Status FromCloud(const idl::sensor_msgs::PointCloud2& message,
+                   std::vector<rgbd::SensedCloud>* clouds) const;
+  Status CheckIsNew(const idl::sensor_msgs::PointCloud2& message,
+                    const std::vector<rgbd::SensedCloud>& clouds);
+  void TakeReports(dds::Reader<idl::palpate_msgs::PerceptionReport>& reader,
+                   std::optional<std::size_t> further);
   void TakeContacts();
   void TakeTransforms(dds::Reader<idl::tf2_msgs::TFMessage>& reader);
   Parts* PartsAt(int64_t stamp_ns);
@@ -95,6 +112,7 @@ class ShapeSource : public FrameSource {
   dds::Reader<idl::sensor_msgs::PointCloud2> clouds_;
   dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;
   dds::Reader<idl::palpate_msgs::ContactArray> contacts_;
+  std::vector<std::unique_ptr<Further>> further_;
   std::deque<Parts> pending_;  ///< in the order in which their first part came
   std::shared_ptr<dds::RosClock> clock_;
   RepetitionCheck repetition_;  ///< of clouds

@@ -50,9 +50,10 @@ std::vector<std::int64_t> TimesOf(const experiment::RgbdSequence& images) {
 }
 
 /// The numbers of the frames to estimate, in their order.
-std::vector<std::size_t> ChosenFrames(const std::vector<JointFrame>& frames, double rate_Hz) {
+std::vector<std::size_t> ChosenFrames(const std::vector<experiment::JointFrame>& frames,
+                                      double rate_Hz) {
   std::vector<double> t_s;
-  for (const JointFrame& frame : frames) {
+  for (const experiment::JointFrame& frame : frames) {
     t_s.push_back(FrameTime_s(frame.t_ns));
   }
   const std::vector<bool> kept = KeptFrames(t_s, rate_Hz);
@@ -68,8 +69,8 @@ std::vector<std::size_t> ChosenFrames(const std::vector<JointFrame>& frames, dou
 /// A recording and its cameras.
 struct ShapeReplay::Scene {
   const Recording& recording;
-  std::vector<SceneCamera> cameras = {};  ///< by number
-  std::vector<JointFrame> frames = {};    ///< of the cameras that are used
+  std::vector<SceneCamera> cameras = {};            ///< by number
+  std::vector<experiment::JointFrame> frames = {};  ///< of the cameras that are used
   force_estimation::CameraPoses poses = {};
   std::string why_blind = {};  ///< where none is used: the reason
 };
@@ -103,9 +104,9 @@ ShapeReplay::Scene ShapeReplay::Open(const Recording& recording) {
     const auto& reason = std::get<experiment::NeedsCalibration>(camera.pose).reason;
     if (scene.why_blind.empty()) scene.why_blind = reason;
   }
-  scene.frames = JoinFrames(used_ns);
+  scene.frames = experiment::JoinFrames(used_ns);
   if (scene.frames.empty()) {
-    scene.frames = JoinFrames(all_ns);
+    scene.frames = experiment::JoinFrames(all_ns);
   } else {
     scene.why_blind.clear();
   }
@@ -144,7 +145,7 @@ ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate
   if (scene.why_blind.empty()) return Run(scene, {}, take);
   ForceEstimate refused;
   refused.status = Status(StatusCode::kNoCalibration, scene.why_blind);
-  for (const JointFrame& frame : scene.frames) {
+  for (const experiment::JointFrame& frame : scene.frames) {
     refused.t_s = FrameTime_s(frame.t_ns);
     take(refused);
   }
@@ -221,7 +222,7 @@ FrameInputs ShapeReplay::InputsAt(const Scene& scene, std::int64_t t_ns, bool co
 }
 
 const perception::JointObservation& ShapeReplay::Perceive(const Scene& scene,
-                                                          const JointFrame& joint) {
+                                                          const experiment::JointFrame& joint) {
   std::vector<const rgbd::RgbdFrame*> images(scene.cameras.size());
   for (std::size_t k = 0; k < images.size(); ++k) {
     if (!joint.frames[k]) continue;

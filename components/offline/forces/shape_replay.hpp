@@ -17,8 +17,8 @@
 #include "components/offline/forces/marker_replay.hpp"
 #include "components/offline/forces/shape_stream.hpp"
 #include "components/offline/images/image_opener.hpp"
-#include "components/offline/images/joint_frames.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/experiment/images/joint_frames.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -88,7 +88,8 @@ class ShapeReplay {
   ReplayCount Run(const Scene& scene, const Frames& frames, const TakeEstimate& take);
   void ExpectPosture(const Scene& scene);
   FrameInputs InputsAt(const Scene& scene, std::int64_t t_ns, bool contact_free) const;
-  const perception::JointObservation& Perceive(const Scene& scene, const JointFrame& joint);
+  const perception::JointObservation& Perceive(const Scene& scene,
+                                               const experiment::JointFrame& joint);
   void NoteMissing(const Scene& scene, const std::vector<std::size_t>& frames);
 
   Inputs inputs_;

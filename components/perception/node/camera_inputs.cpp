@@ -20,7 +20,7 @@ Status About(const std::string& topic, const Status& status) {
 
 void CameraInputs::SetSetup(const idl::palpate_msgs::CameraSetup& message) {
   Received<CameraSetup> received{dds::StampNs(message.header.stamp), {}, {}};
-  received.status = About("/camera/setup", FromCameraSetup(message, &received.value));
+  received.status = About(prefix_ + "/setup", FromCameraSetup(message, &received.value));
   setup_ = std::move(received);
   ++setups_;
 }
@@ -40,11 +40,11 @@ void CameraInputs::SetColorLens(const idl::sensor_msgs::CameraInfo& message) {
 }
 
 Status CameraInputs::CameraOf(std::uint32_t epoch, rgbd::RgbdCamera* camera) const {
-  if (!setup_) return Missing("no /camera/setup has come");
+  if (!setup_) return Missing("no " + prefix_ + "/setup has come");
   if (!setup_->status.ok()) return setup_->status;
   if (setup_->value.epoch != epoch) {
-    return Missing("a frame of epoch " + std::to_string(epoch) +
-                   ", but the /camera/setup of epoch " + std::to_string(setup_->value.epoch));
+    return Missing("a frame of epoch " + std::to_string(epoch) + ", but the " + prefix_ +
+                   "/setup of epoch " + std::to_string(setup_->value.epoch));
   }
   if (Status status = CheckDepthLens(); !status.ok()) return status;
   if (Status status = CheckColorLens(); !status.ok()) return status;
@@ -58,15 +58,15 @@ Status CameraInputs::CameraOf(std::uint32_t epoch, rgbd::RgbdCamera* camera) con
 
 Status CameraInputs::CheckDepthLens() const {
   if (!BelongsToSetup(depth_))
-    return Missing("no /camera/depth/camera_info of this epoch has come");
-  if (!depth_->status.ok()) return About("/camera/depth/camera_info", depth_->status);
+    return Missing("no " + prefix_ + "/depth/camera_info of this epoch has come");
+  if (!depth_->status.ok()) return About(prefix_ + "/depth/camera_info", depth_->status);
   if (depth_->value.fx_px > 0.0 && depth_->value.fy_px > 0.0) return Status::Ok();
-  return Missing("/camera/depth/camera_info: the camera is not calibrated");
+  return Missing(prefix_ + "/depth/camera_info: the camera is not calibrated");
 }
 
 Status CameraInputs::CheckColorLens() const {
   if (!has_color_lens()) return Status::Ok();
-  if (!color_->status.ok()) return About("/camera/color/camera_info", color_->status);
+  if (!color_->status.ok()) return About(prefix_ + "/color/camera_info", color_->status);
   const rgbd::CameraModel& color = color_->value;
   const rgbd::CameraModel& depth = depth_->value;
   if (setup_->value.camera.color_registered) {
@@ -74,10 +74,10 @@ Status CameraInputs::CheckColorLens() const {
       return Status::Ok();
     }
     return {StatusCode::kInvalidInput,
-            "/camera/color/camera_info: registered colour of another size than the depth"};
+            prefix_ + "/color/camera_info: registered colour of another size than the depth"};
   }
   if (color.fx_px > 0.0 && color.fy_px > 0.0) return Status::Ok();
-  return Missing("/camera/color/camera_info: the camera is not calibrated");
+  return Missing(prefix_ + "/color/camera_info: the camera is not calibrated");
 }
 
 }  // namespace palpate::perception

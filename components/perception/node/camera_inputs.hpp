@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "components/perception/node/convert.hpp"
 
@@ -15,6 +16,9 @@ namespace palpate::perception {
 /// those of a camera that was there before.
 class CameraInputs {
  public:
+  /// `prefix`: of the camera's topics, for messages.
+  explicit CameraInputs(std::string prefix = "/camera") : prefix_(std::move(prefix)) {}
+
   void SetSetup(const idl::palpate_msgs::CameraSetup& message);
   void SetDepthLens(const idl::sensor_msgs::CameraInfo& message);
   void SetColorLens(const idl::sensor_msgs::CameraInfo& message);
@@ -48,6 +52,7 @@ class CameraInputs {
   Status CheckDepthLens() const;
   Status CheckColorLens() const;
 
+  std::string prefix_;
   std::optional<Received<CameraSetup>> setup_;
   Lens depth_;
   Lens color_;

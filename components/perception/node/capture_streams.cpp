@@ -9,20 +9,21 @@
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
-#include "libs/geometry/frames.hpp"
 
 namespace palpate::perception {
 
 CaptureStreams::CaptureStreams(dds::Participant& participant, dds::WaitSet& loop, double wait_s,
-                               StreamEvents events)
-    : wait_s_(wait_s),
+                               StreamEvents events, const std::string& camera)
+    : of_(dds::TopicsOf(camera)),
+      wait_s_(wait_s),
       events_(std::move(events)),
-      setups_(participant.CreateReader(dds::kCameraSetupTopic)),
-      depth_lenses_(participant.CreateReader(dds::kDepthCameraInfoTopic)),
-      color_lenses_(participant.CreateReader(dds::kColorCameraInfoTopic)),
-      depths_(participant.CreateReader(dds::kDepthImageTopic)),
-      colors_(participant.CreateReader(dds::kColorImageTopic)),
-      infos_(participant.CreateReader(dds::kFrameInfoTopic)),
+      setups_(participant.CreateReader(of_.setup, {}, camera)),
+      depth_lenses_(participant.CreateReader(of_.depth_lens, {}, camera)),
+      color_lenses_(participant.CreateReader(of_.color_lens, {}, camera)),
+      depths_(participant.CreateReader(of_.depth, {}, camera)),
+      colors_(participant.CreateReader(of_.color, {}, camera)),
+      infos_(participant.CreateReader(of_.frame_info, {}, camera)),
+      camera_(of_.prefix),
       pairing_(FromSeconds(wait_s)) {
   loop.Attach(setups_, [this] { TakeCamera(); });
   loop.Attach(depth_lenses_, [this] { TakeCamera(); });
@@ -39,10 +40,6 @@ void CaptureStreams::ExpectInputs(dds::InputMonitor& inputs) {
   inputs.Expect(depth_lenses_, capture, dds::InputKind::kLatched);
   inputs.Expect(depths_, capture);
   inputs.Expect(infos_, capture);
-}
-
-std::string CaptureStreams::depth_frame() const {
-  return std::string(geometry::kCameraDepthOpticalFrame);
 }
 
 /// Comes before the frames that are taken with it: who takes frames asks for it first.
@@ -74,7 +71,7 @@ void CaptureStreams::TakeDepth() {
     }
     FrameSet* set = PartOf(message);
     if (!set) continue;
-    const Status status = FromDepthImage(message, &set->depth.emplace());
+    const Status status = FromDepthImage(message, of_, &set->depth.emplace());
     if (!status.ok()) set->status = {status.code(), depths_.ros_name() + ": " + status.message()};
   }
   events_.changed();
@@ -86,7 +83,7 @@ void CaptureStreams::TakeColor() {
     if (dds::StampNs(message.header.stamp) == pairing_.last_stamp_ns()) continue;
     FrameSet* set = PartOf(message);
     if (!set) continue;
-    const Status status = FromColorImage(message, &set->color.emplace());
+    const Status status = FromColorImage(message, of_, &set->color.emplace());
     if (!status.ok()) set->status = {status.code(), colors_.ros_name() + ": " + status.message()};
   }
   events_.changed();

@@ -8,6 +8,7 @@
 
 #include "components/perception/node/camera_inputs.hpp"
 #include "components/perception/node/camera_streams.hpp"
+#include "libs/dds/camera_topics.hpp"
 
 namespace palpate::perception {
 
@@ -15,16 +16,17 @@ namespace palpate::perception {
 /// stamp for all parts of a frame.
 class CaptureStreams : public CameraStreams {
  public:
-  /// `wait_s`: longest wait of a depth image for the rest of its set.
+  /// `wait_s`: longest wait of a depth image for the rest of its set. `camera`: name of a camera
+  /// beside the first; empty: the first. Throws InputError for a name that is none.
   CaptureStreams(dds::Participant& participant, dds::WaitSet& loop, double wait_s,
-                 StreamEvents events);
+                 StreamEvents events, const std::string& camera = {});
 
   void ExpectInputs(dds::InputMonitor& inputs) override;
   std::optional<FrameSet> Take(Time now) override;
   std::optional<Time> NextOverdue() const override { return pairing_.NextOverdue(); }
   Status Examine(const FrameSet& set, rgbd::RgbdCamera* camera) override;
   std::string device() const override { return camera_.device(); }
-  std::string depth_frame() const override;
+  std::string depth_frame() const override { return of_.depth_frame; }
   std::optional<double> subpixel_sigma_px() const override { return camera_.subpixel_sigma_px(); }
   std::uint64_t setups() const override { return camera_.setups(); }
   const dds::Endpoint& depths() const override { return depths_; }
@@ -39,6 +41,7 @@ class CaptureStreams : public CameraStreams {
   FrameSet* PartOf(const Message& message);
   bool IsWhole(const FrameSet& set) const;
 
+  dds::CameraTopics of_;
   double wait_s_;
   StreamEvents events_;
   dds::Reader<idl::palpate_msgs::CameraSetup> setups_;

@@ -31,7 +31,8 @@ std::unique_ptr<PerceptionNode> MakeNode(const Command& command) {
   }
   return std::make_unique<PerceptionNode>(
       command.config, T_robot_camera, MakeFramePerception, command.options.domain_id,
-      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log,
+      dds::ReadFurtherCameras(command.config.cameras, app::ParseYaml));
 }
 
 }  // namespace palpate::perception

@@ -23,12 +23,12 @@ using dds::Invalid;
 
 using idl::sensor_msgs::Image;
 
-Status CheckFrame(const idl::std_msgs::Header& header, bool color) {
+Status CheckFrame(const idl::std_msgs::Header& header, const dds::CameraTopics& camera,
+                  bool color) {
   const std::string_view frame = dds::Text(header.frame_id);
-  if (frame == geometry::kCameraDepthOpticalFrame) return Status::Ok();
-  if (color && frame == geometry::kCameraColorOpticalFrame) return Status::Ok();
-  return Invalid("frame '" + std::string(frame) + "' instead of '" +
-                 std::string(geometry::kCameraDepthOpticalFrame) + "'");
+  if (frame == camera.depth_frame) return Status::Ok();
+  if (color && frame == camera.color_frame) return Status::Ok();
+  return Invalid("frame '" + std::string(frame) + "' instead of '" + camera.depth_frame + "'");
 }
 
 Status CheckImage(const Image& message, std::string_view encoding, std::uint32_t pixel_bytes) {
@@ -54,15 +54,57 @@ Status CopyImage(const Image& message, std::string_view encoding, Target* image)
   return Status::Ok();
 }
 
+void SetTexture(const rgbd::TexturePoints& texture, idl::palpate_msgs::PerceptionReport& report) {
+  dds::SetVector(report.texture_origin_m, texture.origin_m);
+  dds::Resize(report.texture, texture.ids.size());
+  for (std::size_t i = 0; i < texture.ids.size(); ++i) {
+    auto& point = report.texture._buffer[i];
+    point.id = texture.ids[i];
+    Eigen::Vector3f::Map(point.direction) = texture.directions.col(ToIndex(i));
+    point.sigma_rad = texture.sigma_rad[ToIndex(i)];
+  }
+}
+
+void SetNotes(const std::vector<std::string>& notes, idl::palpate_msgs::PerceptionReport& report) {
+  dds::Resize(report.notes, notes.size());
+  for (std::size_t i = 0; i < notes.size(); ++i) dds::SetText(report.notes._buffer[i], notes[i]);
+}
+
+/// Points of all cameras in the frame of the first.
+dds::JoinedCloud Joined(const FrameOutcome& outcome, rgbd::SensedCloud SegmentedFrame::*part) {
+  Eigen::Index count = 0;
+  for (const CameraView& view : outcome.observation.views) count += (view.frame.*part).Count();
+  dds::JoinedCloud joined;
+  joined.points.points_m.resize(3, count);
+  joined.points.sigma_m.resize(count);
+  Eigen::Index next = 0;
+  for (std::size_t k = 0; k < outcome.cameras.size(); ++k) {
+    const rgbd::SensedCloud& cloud = outcome.observation.views[k].frame.*part;
+    const Eigen::Isometry3d& T_first_camera = outcome.cameras[k].T_first_camera;
+    const Eigen::Index points = cloud.Count();
+    joined.points.points_m.middleCols(next, points) =
+        k == 0 ? cloud.points_m
+               : (T_first_camera * cloud.points_m.cast<double>()).cast<float>().eval();
+    joined.points.sigma_m.segment(next, points) = cloud.sigma_m;
+    auto& colors_rgb = joined.points.colors_rgb;
+    colors_rgb.insert(colors_rgb.end(), cloud.colors_rgb.begin(), cloud.colors_rgb.end());
+    joined.cameras.insert(joined.cameras.end(), At(points), static_cast<std::uint32_t>(k));
+    next += points;
+  }
+  return joined;
+}
+
 }  // namespace
 
-Status FromDepthImage(const Image& message, rgbd::DepthImage* image) {
-  if (Status frame = CheckFrame(message.header, false); !frame.ok()) return frame;
+Status FromDepthImage(const Image& message, const dds::CameraTopics& camera,
+                      rgbd::DepthImage* image) {
+  if (Status frame = CheckFrame(message.header, camera, false); !frame.ok()) return frame;
   return CopyImage(message, "16UC1", image);
 }
 
-Status FromColorImage(const Image& message, rgbd::ColorImage* image) {
-  if (Status frame = CheckFrame(message.header, true); !frame.ok()) return frame;
+Status FromColorImage(const Image& message, const dds::CameraTopics& camera,
+                      rgbd::ColorImage* image) {
+  if (Status frame = CheckFrame(message.header, camera, true); !frame.ok()) return frame;
   return CopyImage(message, "rgb8", image);
 }
 
@@ -92,14 +134,41 @@ Status FromCameraSetup(const idl::palpate_msgs::CameraSetup& message, CameraSetu
   return Status::Ok();
 }
 
+std::string FrameOutcome::NameOf(std::size_t camera) const {
+  return camera == 0 ? "the first camera" : "camera '" + cameras[camera].name + "'";
+}
+
 dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& outcome) {
-  const SegmentedFrame& frame = outcome.observation.frame;
+  auto report = ToReportOf(outcome, 0, std::string(geometry::kCameraDepthOpticalFrame));
+  if (outcome.cameras.size() == 1) return report;
+  const Status& status = outcome.observation.status();
+  dds::SetText(report->status, ToString(status.code()));
+  dds::SetText(report->reason, status.message());
+  std::vector<std::string> notes = outcome.observation.views[0].frame.notes;
+  report->robot_points = report->object_points = 0;
+  for (std::size_t k = 0; k < outcome.cameras.size(); ++k) {
+    const SegmentedFrame& frame = outcome.observation.views[k].frame;
+    report->robot_points += static_cast<std::uint32_t>(frame.robot.Count());
+    report->object_points += static_cast<std::uint32_t>(frame.object.Count());
+    const Status& missing = outcome.cameras[k].status;
+    if (!missing.ok()) notes.push_back(outcome.NameOf(k) + ": " + missing.message());
+  }
+  SetNotes(notes, *report);
+  return report;
+}
+
+dds::Message<idl::palpate_msgs::PerceptionReport> ToReportOf(const FrameOutcome& outcome,
+                                                             std::size_t camera,
+                                                             const std::string& depth_frame) {
+  const CameraOrigin& origin = outcome.cameras[camera];
+  const CameraView& view = outcome.observation.views[camera];
+  const SegmentedFrame& frame = view.frame;
   dds::Message<idl::palpate_msgs::PerceptionReport> report;
-  dds::SetHeader(report->header, outcome.stamp_ns, geometry::kCameraDepthOpticalFrame);
-  report->frame_counter = outcome.frame_counter;
-  report->epoch = outcome.epoch;
-  dds::SetText(report->device, outcome.device);
-  dds::SetPicture(report->picture, outcome.picture);
+  dds::SetHeader(report->header, outcome.stamp_ns, depth_frame);
+  report->frame_counter = origin.frame_counter;
+  report->epoch = origin.epoch;
+  dds::SetText(report->device, origin.device);
+  dds::SetPicture(report->picture, origin.picture);
   dds::SetText(report->status, ToString(frame.status.code()));
   dds::SetText(report->reason, frame.status.message());
   report->robot_points = static_cast<std::uint32_t>(frame.robot.Count());
@@ -111,21 +180,18 @@ dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& o
   report->at_depth_edge = static_cast<std::uint64_t>(frame.rejected.at_depth_edge);
   report->ambiguous = static_cast<std::uint64_t>(frame.rejected.ambiguous);
   report->thinned = static_cast<std::uint64_t>(frame.rejected.thinned);
-  const rgbd::TexturePoints& texture = outcome.observation.texture;
-  dds::SetVector(report->texture_origin_m, texture.origin_m);
-  dds::Resize(report->texture, texture.ids.size());
-  for (std::size_t i = 0; i < texture.ids.size(); ++i) {
-    auto& point = report->texture._buffer[i];
-    point.id = texture.ids[i];
-    Eigen::Vector3f::Map(point.direction) = texture.directions.col(ToIndex(i));
-    point.sigma_rad = texture.sigma_rad[ToIndex(i)];
-  }
-  dds::Resize(report->notes, frame.notes.size());
-  for (std::size_t i = 0; i < frame.notes.size(); ++i) {
-    dds::SetText(report->notes._buffer[i], frame.notes[i]);
-  }
+  SetTexture(view.texture, *report);
+  SetNotes(frame.notes, *report);
   report->prediction_stamp = dds::TimeFromNs(outcome.prediction_stamp_ns);
   return report;
+}
+
+dds::JoinedCloud JoinedRobotCloud(const FrameOutcome& outcome) {
+  return Joined(outcome, &SegmentedFrame::robot);
+}
+
+dds::JoinedCloud JoinedObjectCloud(const FrameOutcome& outcome) {
+  return Joined(outcome, &SegmentedFrame::object);
 }
 
 dds::Message<idl::palpate_msgs::ContactArray> ToContactArray(const FrameOutcome& outcome) {

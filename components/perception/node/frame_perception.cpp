@@ -3,8 +3,6 @@
 
 #include "components/perception/node/frame_perception.hpp"
 
-#include "components/perception/perception.hpp"
-
 namespace palpate::perception {
 
 namespace {
@@ -12,14 +10,19 @@ namespace {
 class RealPerception : public FramePerception {
  public:
   explicit RealPerception(const Config& config) : perception_(config) {}
-  void SetCamera(const rgbd::RgbdCamera& camera) override { perception_.SetCamera(camera); }
-  const Observation& Update(const rgbd::RgbdFrame& frame,
-                            const PredictedSurface* predicted) override {
-    return perception_.Update(frame, predicted);
+  void SetCamera(std::size_t number, const rgbd::RgbdCamera& camera) override {
+    perception_.SetCamera(number, camera);
+  }
+  void Restart(std::size_t number, const Config& config) override {
+    perception_.Restart(number, config);
+  }
+  const JointObservation& Update(std::int64_t stamp_ns,
+                                 const std::vector<CameraFrame>& frames) override {
+    return perception_.Update(stamp_ns, frames);
   }
 
  private:
-  Perception perception_;
+  JointPerception perception_;
 };
 
 }  // namespace

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <string_view>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "components/perception/node/capture_streams.hpp"
 #include "components/perception/node/driver_streams.hpp"
+#include "libs/core/error.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
@@ -30,14 +30,35 @@ dds::NodeSettings NamesOf(const NodeConfig& config) {
   return settings;
 }
 
+std::vector<Eigen::Isometry3d> PosesOf(const std::vector<dds::FurtherCamera>& cameras) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const dds::FurtherCamera& camera : cameras) {
+    if (!camera.T_robot_camera) {
+      throw InputError("cameras: where is '" + camera.name + "'? Its pose belongs behind its name");
+    }
+    poses.push_back(*camera.T_robot_camera);
+  }
+  return poses;
+}
+
+void CheckSettings(const NodeConfig& config, bool has_pose, bool has_further_cameras) {
+  if (!has_further_cameras) return;
+  if (!has_pose) throw InputError("cameras: camera_pose is required beside further cameras");
+  if (config.camera.source != "capture") {
+    throw InputError("cameras: further cameras need camera.source capture");
+  }
+}
+
 }  // namespace
 
 PerceptionNode::PerceptionNode(const NodeConfig& config,
                                std::optional<Eigen::Isometry3d> T_robot_camera,
                                FramePerceptionMaker maker, int domain_id, dds::TopicTable table,
-                               dds::NodeLog::ProcessLog process_log)
+                               dds::NodeLog::ProcessLog process_log,
+                               const std::vector<dds::FurtherCamera>& cameras)
     : config_{config},
       pose_{std::move(T_robot_camera)},
+      further_poses_{PosesOf(cameras)},
       participant_{dds::ParticipantOf(NamesOf(config), "palpate_perception", domain_id),
                    std::move(table)},
       loop_{participant_},
@@ -47,13 +68,15 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       meshes_{participant_.CreateReader(dds::kMeshTopic)},
       mesh_states_{participant_.CreateReader(dds::kMeshStateTopic)},
       calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
-      outputs_{participant_, !config.markers.color_rgb.empty()},
+      outputs_{participant_, !config.markers.color_rgb.empty(), dds::NamesOf(cameras)},
       transforms_{participant_},
-      streams_{MakeStreams()},
+      feeds_{MakeFeeds(cameras)},
+      joining_{feeds_.size(), FromSeconds(config.camera_wait_s)},
       worker_{
           {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
       lateness_{config.late_s},
       inputs_{participant_, loop_, log_} {
+  CheckSettings(config, pose_.T_robot_camera().has_value(), !cameras.empty());
   AttachReaders();
   ExpectInputs();
   loop_.OnWake([this] { PublishResults(); });
@@ -63,26 +86,38 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
   log_.Write(Severity::kWarning, "no camera_pose: frames are segmented without the model's help");
 }
 
-std::unique_ptr<CameraStreams> PerceptionNode::MakeStreams() {
+std::vector<CameraFeed> PerceptionNode::MakeFeeds(const std::vector<dds::FurtherCamera>& cameras) {
   const StreamEvents events{[this] { Advance(); },
                             [this](std::int64_t stamp_ns) { outputs_.Repeat(stamp_ns); }};
-  if (config_.camera.source == "capture") {
-    return std::make_unique<CaptureStreams>(participant_, loop_, config_.pairing_wait_s, events);
+  std::vector<CameraFeed> feeds;
+  if (config_.camera.source == "driver") {
+    feeds.emplace_back(
+        config_, "",
+        std::make_unique<DriverStreams>(participant_, loop_, config_.camera, config_.pairing_wait_s,
+                                        config_.max_z_m, events));
+    return feeds;
   }
-  return std::make_unique<DriverStreams>(participant_, loop_, config_.camera,
-                                         config_.pairing_wait_s, config_.max_z_m, events);
+  std::vector<std::string> names = dds::NamesOf(cameras);
+  names.insert(names.begin(), "");
+  for (const std::string& name : names) {
+    feeds.emplace_back(config_, name,
+                       std::make_unique<CaptureStreams>(participant_, loop_, config_.pairing_wait_s,
+                                                        events, name));
+  }
+  return feeds;
 }
 
 void PerceptionNode::AttachReaders() {
   loop_.Attach(meshes_, [this] { TakeMesh(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
-  if (!config_.follow_calibration) return;
+  // The cameras are calibrated together, and a message has the pose of the first alone.
+  if (!config_.follow_calibration || !further_poses_.empty()) return;
   loop_.Attach(calibrations_, [this] { TakeCalibration(); });
 }
 
 void PerceptionNode::ExpectInputs() {
   using Kind = dds::InputKind;
-  streams_->ExpectInputs(inputs_);
+  for (CameraFeed& feed : feeds_) feed.streams().ExpectInputs(inputs_);
   // The model answers frames, and without a pose its surface is of no use.
   const auto needs_model = [this] { return pose_.T_robot_camera() && !IsSilent(); };
   const std::string model = "palpate-force-estimation";
@@ -120,7 +155,11 @@ void PerceptionNode::AdoptCalibration() {
 void PerceptionNode::SendPose() {
   if (!pose_.T_robot_camera()) return;
   const std::int64_t now_ns = participant_.Now_ns();
-  const std::string frame = streams_->depth_frame();
+  const std::string frame = feeds_[0].streams().depth_frame();
+  for (std::size_t k = 1; k < feeds_.size(); ++k) {
+    (void)transforms_.Set(geometry::kRobotFrame, feeds_[k].streams().depth_frame(), *PoseOf(k),
+                          now_ns);
+  }
   if (config_.camera.source == "capture") {
     (void)transforms_.Set(geometry::kRobotFrame, frame, *pose_.T_robot_camera(), now_ns);
   } else if (!frame.empty()) {
@@ -148,7 +187,11 @@ void PerceptionNode::TakeMeshStates() {
 
 void PerceptionNode::Advance() {
   WorkOnNext();
-  while (auto set = streams_->Take(Clock::now())) {
+  const Clock::time_point now = Clock::now();
+  for (std::size_t k = 0; k < feeds_.size(); ++k) {
+    while (auto set = feeds_[k].streams().Take(now)) joining_.Add(k, std::move(*set));
+  }
+  while (auto set = joining_.Take(now)) {
     if (next_) ++counts_.dropped;
     next_ = std::move(set);
     WorkOnNext();
@@ -163,10 +206,13 @@ void PerceptionNode::WorkOnNext() {
 
 void PerceptionNode::SetAlarm() {
   overdue_.Clear();
-  const auto set = streams_->NextOverdue();
-  if (set) overdue_.Set(*set);
-  if (!next_ || worker_.busy()) return;
-  overdue_.Set(set ? std::min(*set, PredictionOverdue()) : PredictionOverdue());
+  std::optional<Clock::time_point> next = joining_.NextOverdue();
+  const auto include = [&](std::optional<Clock::time_point> time) {
+    if (time) next = next ? std::min(*next, *time) : *time;
+  };
+  for (const CameraFeed& feed : feeds_) include(feed.streams().NextOverdue());
+  if (next_ && !worker_.busy()) include(PredictionOverdue());
+  if (next) overdue_.Set(*next);
 }
 
 PerceptionNode::Clock::time_point PerceptionNode::PredictionOverdue() const {
@@ -184,104 +230,142 @@ bool PerceptionNode::MustAwaitPrediction() const {
 }
 
 /// Frames of another device, or of one that was started again from the beginning, have nothing to
-/// do with those before; those of one that was only reopened (its epoch rose) do.
-bool PerceptionNode::BeginsSequence(const FrameSet& set) const {
+/// do with those before; those of one that was only reopened (its epoch rose) do. The first camera
+/// decides, where it has a frame.
+bool PerceptionNode::BeginsSequence(const JointSet& set) const {
   if (!last_stamp_ns_) return true;
   const bool back = set.stamp_ns <= *last_stamp_ns_;
-  return streams_->device() != last_device_ ||
-         (back && set.facts && set.facts->epoch <= last_epoch_);
+  const std::optional<FrameSet>& first = set.sets[0];
+  if (!first) return back;
+  return feeds_[0].streams().device() != last_device_ ||
+         (back && first->facts && first->facts->epoch <= last_epoch_);
 }
 
-void PerceptionNode::Work(FrameSet set) {
-  rgbd::RgbdCamera camera;
-  Status status = streams_->Examine(set, &camera);
-  if (status.ok()) status = CheckIsNew(set);
-  if (status.ok()) status = FollowFrames();
+void PerceptionNode::Work(JointSet set) {
+  PerceptionJob job = MakeJob(set);
+  const auto& cameras = job.outcome.cameras;
+  const bool is_usable = std::any_of(cameras.begin(), cameras.end(),
+                                     [](const CameraOrigin& one) { return one.status.ok(); });
+  if (!is_usable) return Refuse(std::move(job));
+  Finish(set, job);
+  worker_.Start(std::move(job));
+}
+
+/// What each camera has of the frame, and why not where it has nothing.
+PerceptionJob PerceptionNode::MakeJob(JointSet& set) {
+  PerceptionJob job;
+  job.outcome.stamp_ns = set.stamp_ns;
+  job.taken = set.taken;
+  job.begins = BeginsSequence(set);
+  std::vector<rgbd::RgbdCamera> known(feeds_.size());
+  bool is_usable = false;
+  for (std::size_t k = 0; k < feeds_.size(); ++k) {
+    std::optional<FrameSet>& of_camera = set.sets[k];
+    CameraOrigin& origin =
+        job.outcome.cameras.emplace_back(feeds_[k].OriginOf(of_camera ? &*of_camera : nullptr));
+    origin.status = of_camera ? Examine(k, *of_camera, job.begins, &known[k])
+                              : Status(StatusCode::kStale, "no image of this time");
+    if (k > 0) origin.T_first_camera = PoseOf(0)->inverse() * *PoseOf(k);
+    is_usable = is_usable || origin.status.ok();
+  }
+  if (!is_usable) return job;
+  if (job.begins) Begin();
+  for (std::size_t k = 0; k < feeds_.size(); ++k) {
+    CameraOrigin& origin = job.outcome.cameras[k];
+    CameraJob& camera = job.cameras.emplace_back();
+    if (origin.status.ok()) {
+      // Perception as a whole begins with the settings of the first camera.
+      if (k == 0 && feeds_[0].Resets()) {
+        for (CameraFeed& feed : feeds_) feed.Forget();
+      }
+      origin.picture = rgbd::PictureOf(known[k].depth);
+      camera = feeds_[k].MakeJob(*set.sets[k], known[k], set.stamp_ns);
+    }
+    if (const auto pose = PoseOf(k)) camera.T_robot_camera = *pose;
+  }
+  Predict(set.stamp_ns, &job);
+  return job;
+}
+
+/// Why a camera's set cannot be used; ok, and its camera, where it can.
+Status PerceptionNode::Examine(std::size_t camera, FrameSet& set, bool begins,
+                               rgbd::RgbdCamera* known) {
+  CameraFeed& feed = feeds_[camera];
+  Status status = feed.streams().Examine(set, known);
   if (status.ok()) {
-    worker_.Start(MakeJob(set, camera));
-    return;
+    NoteLateness(set);
+    if (begins) feed.BeginSequence();
+    status = feed.CheckIsNew(set);
   }
-  ++counts_.refused;
-  log_.WarnRepeatedly("frame refused: " + status.message(), dds::StampText(set.stamp_ns));
-  PerceptionJob refused = HeadOf(set);
-  refused.outcome.observation.stamp_ns = set.stamp_ns;
-  refused.outcome.observation.frame.status = status;
-  Publish(refused.outcome, set.taken);
+  if (status.ok() && camera == 0) status = FollowFrames();
+  if (status.ok()) return status;
+  const std::string of_camera = feed.name().empty() ? "" : " of camera '" + feed.name() + "'";
+  log_.WarnRepeatedly("frame" + of_camera + " refused: " + status.message(),
+                      dds::StampText(set.stamp_ns));
+  return status;
 }
 
-/// An image that comes again under a new stamp is no measurement: forces of it would be those of
-/// the past.
-Status PerceptionNode::CheckIsNew(const FrameSet& set) {
-  if (set.facts && set.facts->received_ns != 0) {
-    lateness_.Add(NsToSeconds(participant_.clock()->NowOfFrames_ns() - set.facts->received_ns) -
-                  SecondsSince(set.taken));
-  }
-  if (BeginsSequence(set)) repetition_.Forget();
-  const std::vector<std::uint16_t>& depths = set.depth->values;
-  const std::string_view bytes(reinterpret_cast<const char*>(depths.data()),
-                               depths.size() * sizeof(std::uint16_t));
-  const auto sum = std::accumulate(depths.begin(), depths.end(), std::uint64_t{0});
-  if (!repetition_.IsRepeated(bytes, static_cast<double>(sum))) return Status::Ok();
-  return {StatusCode::kStale, streams_->depths().ros_name() +
-                                  ": the image is the one before, pixel for pixel, under a new "
-                                  "stamp: the camera or its process is stuck"};
+void PerceptionNode::NoteLateness(const FrameSet& set) {
+  if (!set.facts || set.facts->received_ns == 0) return;
+  lateness_.Add(NsToSeconds(participant_.clock()->NowOfFrames_ns() - set.facts->received_ns) -
+                SecondsSince(set.taken));
 }
 
 Status PerceptionNode::FollowFrames() {
-  const auto T_robot_camera = streams_->T_robot_depth();
+  const CameraStreams& streams = feeds_[0].streams();
+  const auto T_robot_camera = streams.T_robot_depth();
   if (!T_robot_camera) return Status::Ok();
   const bool known = pose_.T_robot_camera().has_value();
-  Status status = pose_.FollowFrames(*T_robot_camera, streams_->depth_frame());
+  Status status = pose_.FollowFrames(*T_robot_camera, streams.depth_frame());
   if (!known) {
     log_.Write(Severity::kInfo, "camera pose of /tf and /tf_static, from 'robot' to '" +
-                                    streams_->depth_frame() +
+                                    streams.depth_frame() +
                                     "': " + geometry::FormatPose(*T_robot_camera));
   }
   return status;
 }
 
-PerceptionJob PerceptionNode::HeadOf(const FrameSet& set) const {
-  PerceptionJob job;
-  job.outcome.stamp_ns = set.stamp_ns;
-  job.outcome.device = streams_->device();
-  job.taken = set.taken;
-  if (!set.facts) return job;
-  job.outcome.frame_counter = set.facts->counter;
-  job.outcome.epoch = set.facts->epoch;
-  return job;
+/// A frame that begins a sequence: what was known of earlier ones is void.
+void PerceptionNode::Begin() {
+  for (CameraFeed& feed : feeds_) feed.Forget();
+  if (last_stamp_ns_) predictions_.Clear();
 }
 
-PerceptionJob PerceptionNode::MakeJob(FrameSet& set, const rgbd::RgbdCamera& camera) {
-  PerceptionJob job = HeadOf(set);
-  job.outcome.picture = rgbd::PictureOf(camera.depth);
-  job.images.stamp_ns = set.stamp_ns;
-  job.images.depth = std::move(*set.depth);
-  if (set.color) job.images.color = std::move(*set.color);
-  const bool begins = BeginsSequence(set);
-  if (begins || streams_->subpixel_sigma_px() != sigma_px_) {
-    job.reset = config_;
-    sigma_px_ = streams_->subpixel_sigma_px();
-    job.reset->depth_subpixel_px = sigma_px_.value_or(config_.depth_subpixel_px);
+void PerceptionNode::Predict(std::int64_t stamp_ns, PerceptionJob* job) const {
+  for (std::size_t k = 0; k < feeds_.size(); ++k) {
+    const auto pose = PoseOf(k);
+    if (!pose || !job->outcome.cameras[k].status.ok()) continue;
+    std::optional<Prediction>& prediction = job->cameras[k].prediction;
+    prediction = config_.await_prediction_s > 0.0
+                     ? predictions_.Last(*pose)
+                     : predictions_.Before(stamp_ns, config_.max_prediction_age_s, *pose);
+    if (prediction) job->outcome.prediction_stamp_ns = prediction->stamp_ns;
   }
-  if (begins && last_stamp_ns_) predictions_.Clear();
-  if (job.reset || set_setups_ != streams_->setups() || !IsSameCamera(*set_, camera)) {
-    job.camera = set_ = camera;
-    set_setups_ = streams_->setups();
-  }
-  if (last_device_ != streams_->device()) {
-    last_device_ = streams_->device();
+}
+
+/// Remembers what the next frames are compared with.
+void PerceptionNode::Finish(const JointSet& set, const PerceptionJob& job) {
+  if (last_device_ != feeds_[0].streams().device()) {
+    last_device_ = feeds_[0].streams().device();
     SendPose();
   }
-  last_epoch_ = job.outcome.epoch;
+  last_epoch_ = job.outcome.cameras[0].epoch;
   last_stamp_ns_ = set.stamp_ns;
-  const std::optional<Eigen::Isometry3d>& T_robot_camera = pose_.T_robot_camera();
-  if (!T_robot_camera) return job;
-  job.prediction =
-      config_.await_prediction_s > 0.0
-          ? predictions_.Last(*T_robot_camera)
-          : predictions_.Before(set.stamp_ns, config_.max_prediction_age_s, *T_robot_camera);
-  if (job.prediction) job.outcome.prediction_stamp_ns = job.prediction->stamp_ns;
-  return job;
+}
+
+void PerceptionNode::Refuse(PerceptionJob job) {
+  ++counts_.refused;
+  job.outcome.observation.stamp_ns = job.outcome.stamp_ns;
+  for (const CameraOrigin& origin : job.outcome.cameras) {
+    job.outcome.observation.views.emplace_back().frame.status = origin.status;
+  }
+  Publish(job.outcome, job.taken);
+}
+
+/// nullopt: it is not known, of the first camera.
+std::optional<Eigen::Isometry3d> PerceptionNode::PoseOf(std::size_t camera) const {
+  if (camera > 0) return further_poses_[camera - 1];
+  return pose_.T_robot_camera();
 }
 
 void PerceptionNode::PublishResults() {
@@ -292,7 +376,7 @@ void PerceptionNode::PublishResults() {
 }
 
 void PerceptionNode::Publish(const FrameOutcome& outcome, Clock::time_point taken) {
-  last_status_ = outcome.observation.frame.status;
+  last_status_ = outcome.observation.status();
   outputs_.Publish(outcome, taken);
   published_at_ = Clock::now();
 }
@@ -300,30 +384,69 @@ void PerceptionNode::Publish(const FrameOutcome& outcome, Clock::time_point take
 void PerceptionNode::ReportHealth() {
   dds::HealthCounts counts = counts_;
   counts.published = outputs_.published();
-  counts.received = streams_->received();
-  counts.dropped += streams_->dropped() + outputs_.failed();
+  for (const CameraFeed& feed : feeds_) {
+    counts.received += feed.streams().received();
+    counts.dropped += feed.streams().dropped();
+  }
+  counts.dropped += outputs_.failed() + joining_.dropped();
   counts.latencies_s = outputs_.TakeLatencies();
-  health_.Report(
-      CurrentStatus(), counts,
-      {{"device", streams_->device()},
-       {"readers_of_contacts", std::to_string(outputs_.readers())},
-       {"writers_of_depth", std::to_string(streams_->depths().matched())},
-       {"incompatible_qos", std::to_string(streams_->depths().counters().incompatible_qos)},
-       {"waiting_for", inputs_.Waiting()}},
-      Clock::now());
+  const dds::Endpoint& depths = feeds_[0].streams().depths();
+  dds::HealthReporter::KeysAndValues values = {
+      {"device", feeds_[0].streams().device()},
+      {"readers_of_contacts", std::to_string(outputs_.readers())},
+      {"writers_of_depth", std::to_string(depths.matched())},
+      {"incompatible_qos", std::to_string(depths.counters().incompatible_qos)}};
+  for (std::size_t k = 1; k < feeds_.size(); ++k) {
+    values.emplace_back("camera." + feeds_[k].name(), IsSilent(k) ? "missing" : "ok");
+  }
+  values.emplace_back("waiting_for", inputs_.Waiting());
+  health_.Report(CurrentStatus(), counts, values, Clock::now());
   log_.WriteCounted();
 }
 
+/// No camera sends.
 bool PerceptionNode::IsSilent() const {
-  return streams_->received() == 0 || SecondsSince(streams_->last_depth()) > config_.silence_s;
+  for (std::size_t k = 0; k < feeds_.size(); ++k) {
+    if (!IsSilent(k)) return false;
+  }
+  return true;
+}
+
+bool PerceptionNode::IsSilent(std::size_t camera) const {
+  const CameraStreams& streams = feeds_[camera].streams();
+  return streams.received() == 0 || SecondsSince(streams.last_depth()) > config_.silence_s;
+}
+
+/// Beside others that send: the estimate goes on, with less accuracy. Empty: none is missing.
+std::string PerceptionNode::MissingCameras() const {
+  std::string missing;
+  for (std::size_t k = 0; k < feeds_.size(); ++k) {
+    if (!IsSilent(k)) continue;
+    const std::string& name = feeds_[k].name();
+    missing += (missing.empty() ? "" : ", ") +
+               (name.empty() ? std::string("the first camera") : "camera '" + name + "'");
+  }
+  return missing;
+}
+
+/// When the last depth image of any camera came.
+PerceptionNode::Clock::time_point PerceptionNode::LastDepth() const {
+  Clock::time_point last;
+  for (const CameraFeed& feed : feeds_) last = std::max(last, feed.streams().last_depth());
+  return last;
 }
 
 Status PerceptionNode::CurrentStatus() {
   const Status& late = lateness_.Judge("frames");
-  if (streams_->received() > 0 && IsSilent()) {
-    return {StatusCode::kStale, "no depth images for " +
-                                    FormatNumber(std::round(SecondsSince(streams_->last_depth()))) +
-                                    " s"};
+  const bool was_there = std::any_of(feeds_.begin(), feeds_.end(), [](const CameraFeed& feed) {
+    return feed.streams().received() > 0;
+  });
+  if (was_there && IsSilent()) {
+    return {StatusCode::kStale,
+            "no depth images for " + FormatNumber(std::round(SecondsSince(LastDepth()))) + " s"};
+  }
+  if (const std::string missing = MissingCameras(); was_there && !missing.empty()) {
+    return {StatusCode::kStale, "no depth images of " + missing + ": the others go on"};
   }
   if (!last_status_.ok()) return last_status_;
   if (!last_state_.ok()) {

@@ -4,18 +4,21 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <memory>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "components/perception/node/camera_feed.hpp"
 #include "components/perception/node/camera_pose.hpp"
-#include "components/perception/node/camera_streams.hpp"
+#include "components/perception/node/frame_joining.hpp"
 #include "components/perception/node/node_config.hpp"
 #include "components/perception/node/outputs.hpp"
 #include "components/perception/node/prediction_history.hpp"
 #include "components/perception/node/worker.hpp"
 #include "libs/core/lateness.hpp"
-#include "libs/core/repetition_check.hpp"
+#include "libs/dds/further_cameras.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
@@ -24,16 +27,17 @@
 
 namespace palpate::perception {
 
-/// Takes the camera's frames and the model's last state, publishes the clouds of robot and objects
-/// and the contacts. Each frame that was taken is answered, on /perception/report at least; while
-/// one is in work only the newest of the others waits.
+/// Takes the frames of one or more cameras and the model's last state, publishes the clouds of
+/// robot and objects and the contacts. Each frame that was taken is answered, on /perception/report
+/// at least; while one is in work only the newest of the others waits.
 class PerceptionNode {
  public:
-  /// `T_robot_camera`: of the depth camera; nullopt: unknown. Throws InputError for bad settings,
-  /// RunError where DDS refuses.
+  /// `T_robot_camera`: of the depth camera; nullopt: unknown. `cameras`: those beside it, each with
+  /// its pose. Throws InputError for bad settings, RunError where DDS refuses.
   PerceptionNode(const NodeConfig& config, std::optional<Eigen::Isometry3d> T_robot_camera,
                  FramePerceptionMaker maker, int domain_id, dds::TopicTable table,
-                 dds::NodeLog::ProcessLog process_log);
+                 dds::NodeLog::ProcessLog process_log,
+                 const std::vector<dds::FurtherCamera>& cameras = {});
 
   /// Works until Stop().
   void Run() { loop_.Run(); }
@@ -43,7 +47,7 @@ class PerceptionNode {
  private:
   using Clock = dds::WaitSet::Clock;
 
-  std::unique_ptr<CameraStreams> MakeStreams();
+  std::vector<CameraFeed> MakeFeeds(const std::vector<dds::FurtherCamera>& cameras);
   void AttachReaders();
   void ExpectInputs();
   void TakeMesh();
@@ -54,22 +58,31 @@ class PerceptionNode {
   void Advance();
   void WorkOnNext();
   void SetAlarm();
-  bool BeginsSequence(const FrameSet& set) const;
+  bool BeginsSequence(const JointSet& set) const;
   Clock::time_point PredictionOverdue() const;
   bool MustAwaitPrediction() const;
-  void Work(FrameSet set);
-  Status CheckIsNew(const FrameSet& set);
+  void Work(JointSet set);
+  Status Examine(std::size_t camera, FrameSet& set, bool begins, rgbd::RgbdCamera* known);
+  void NoteLateness(const FrameSet& set);
   Status FollowFrames();
-  PerceptionJob HeadOf(const FrameSet& set) const;
-  PerceptionJob MakeJob(FrameSet& set, const rgbd::RgbdCamera& camera);
+  PerceptionJob MakeJob(JointSet& set);
+  void Predict(std::int64_t stamp_ns, PerceptionJob* job) const;
+  void Begin();
+  void Finish(const JointSet& set, const PerceptionJob& job);
+  void Refuse(PerceptionJob job);
+  std::optional<Eigen::Isometry3d> PoseOf(std::size_t camera) const;
   void PublishResults();
   void Publish(const FrameOutcome& outcome, Clock::time_point taken);
   void ReportHealth();
   bool IsSilent() const;
+  bool IsSilent(std::size_t camera) const;
+  std::string MissingCameras() const;
+  Clock::time_point LastDepth() const;
   Status CurrentStatus();
 
   NodeConfig config_;
-  CameraPose pose_;
+  CameraPose pose_;  ///< of the first camera
+  std::vector<Eigen::Isometry3d> further_poses_;
   dds::Participant participant_;
   dds::WaitSet loop_;
   dds::Alarm& overdue_;  ///< the next part or prediction that is waited for no longer
@@ -80,19 +93,16 @@ class PerceptionNode {
   dds::Reader<idl::palpate_msgs::Calibration> calibrations_;
   Outputs outputs_;
   dds::TransformBroadcaster transforms_;
-  std::unique_ptr<CameraStreams> streams_;
+  std::vector<CameraFeed> feeds_;  ///< of each camera, the first in front
+  FrameJoining joining_;
   PredictionHistory predictions_;
   Worker worker_;
-  std::optional<FrameSet> next_;               ///< waits for the worker or the prediction
-  std::optional<rgbd::RgbdCamera> set_;        ///< the camera that perception knows
-  std::uint64_t set_setups_ = 0;               ///< of streams_, when it was set
-  std::optional<double> sigma_px_;             ///< of the disparity, that perception knows
+  std::optional<JointSet> next_;               ///< waits for the worker or the prediction
   std::optional<std::int64_t> last_stamp_ns_;  ///< given to perception; none: none yet
-  std::uint32_t last_epoch_ = 0;
+  std::uint32_t last_epoch_ = 0;               ///< of the first camera
   std::string last_device_;
   Clock::time_point published_at_;
   Status last_state_ = Status::Ok();  ///< of the last message on /robot/mesh_state
-  RepetitionCheck repetition_;        ///< of depth images
   Lateness lateness_;                 ///< of frames
   dds::HealthCounts counts_;
   Status last_status_{StatusCode::kNotRun, "no images on /camera/depth/image_raw yet"};

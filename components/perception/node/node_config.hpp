@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "components/perception/config.hpp"
 #include "components/perception/node/camera_config.hpp"
@@ -15,6 +16,8 @@ namespace palpate::perception {
 struct NodeConfig : Config {
   std::string camera_pose;
   bool follow_calibration = true;
+  std::vector<std::string> cameras;
+  double camera_wait_s = 0.1;
   double pairing_wait_s = 0.1;
   double max_prediction_age_s = 1.0;
   double await_prediction_s = 0.0;
@@ -32,6 +35,13 @@ struct NodeConfig : Config {
       "w]}\"; empty: unknown, no predicted surface is used");
     v("follow_calibration", follow_calibration,
       "Use the camera pose of /calibration where it is for the mesh of /robot/mesh");
+    v("cameras", cameras,
+      "Depth cameras beside the first, each \"NAME: {translation_m: [x, y, z], rotation_xyzw: [x, "
+      "y, z, w]}\", its pose in the robot frame; its topics are /camera_NAME/...; camera_pose is "
+      "required then, and /calibration is not followed");
+    v("camera_wait_s", camera_wait_s, {.min = 0.0, .max = 10.0},
+      "Longest wait of a camera's frame for those of the other cameras; after three frames in vain "
+      "a camera is not waited for until it sends again");
     v("pairing_wait_s", pairing_wait_s, {.min = 0.0, .max = 10.0},
       "Longest wait of a depth image for the rest of its frame set and for its camera's set-up");
     v("max_prediction_age_s", max_prediction_age_s, {.min = 0.0},

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "components/perception/node/convert.hpp"
@@ -14,12 +15,15 @@
 
 namespace palpate::perception {
 
-/// The writers of the node: both clouds, markers where their detection is on, report and contacts
-/// of each frame, in this order, under its stamp. All calls come from the node's loop.
+/// The writers of the node: both clouds, markers where their detection is on, reports and contacts
+/// of each frame, in this order, under its stamp. With further cameras the clouds are joined, and
+/// each of them has a report of its own. All calls come from the node's loop.
 class Outputs {
  public:
-  /// `with_markers`: without, /perception/markers is left to a motion-capture bridge.
-  Outputs(dds::Participant& participant, bool with_markers);
+  /// `with_markers`: without, /perception/markers is left to a motion-capture bridge. `cameras`:
+  /// names of those beside the first.
+  Outputs(dds::Participant& participant, bool with_markers,
+          const std::vector<std::string>& cameras = {});
 
   void Publish(const FrameOutcome& outcome, FrameSet::Time taken);
   /// Sends the last frame's messages again where they are of this stamp.
@@ -33,6 +37,14 @@ class Outputs {
   std::vector<double> TakeLatencies();
 
  private:
+  /// The report of a camera beside the first.
+  struct FurtherReport {
+    dds::Writer<idl::palpate_msgs::PerceptionReport> writer;
+    std::string depth_frame;
+    dds::Message<idl::palpate_msgs::PerceptionReport> message = {};
+  };
+
+  void MakeReports(const FrameOutcome& outcome, FrameSet::Time taken);
   void Send();
 
   dds::Writer<idl::sensor_msgs::PointCloud2> robot_writer_;
@@ -40,6 +52,7 @@ class Outputs {
   std::optional<dds::Writer<idl::palpate_msgs::MarkerArray3>> marker_writer_;
   dds::Writer<idl::palpate_msgs::PerceptionReport> report_writer_;
   dds::Writer<idl::palpate_msgs::ContactArray> contact_writer_;
+  std::vector<FurtherReport> further_;
   dds::Message<idl::sensor_msgs::PointCloud2> robot_;
   dds::Message<idl::sensor_msgs::PointCloud2> object_;
   dds::Message<idl::palpate_msgs::MarkerArray3> markers_;

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "components/perception/node/convert.hpp"
 #include "components/perception/node/frame_pairing.hpp"
@@ -14,13 +16,20 @@
 
 namespace palpate::perception {
 
-/// A frame to be processed.
-struct PerceptionJob {
-  FrameOutcome outcome;  ///< all but the observation
-  rgbd::RgbdFrame images;
+/// One camera's part of a frame to be processed.
+struct CameraJob {
+  rgbd::RgbdFrame images;  ///< where the status of its outcome is ok
   std::optional<Prediction> prediction;
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   std::optional<Config> reset;             ///< the colour model of earlier frames is void
   std::optional<rgbd::RgbdCamera> camera;  ///< another one than before, or reopened
+};
+
+/// A frame to be processed.
+struct PerceptionJob {
+  FrameOutcome outcome;            ///< all but the observation
+  std::vector<CameraJob> cameras;  ///< as those of `outcome`
+  bool begins = false;             ///< all that is known of earlier frames is void
   FrameSet::Time taken;
 };
 

@@ -51,7 +51,7 @@ void SetInputs(Sequence& sequence, const std::vector<CableInput>& cables,
 }  // namespace
 
 int64_t StampOf(const Event& event, double start_time_s) {
-  const int64_t t_ns = event.images ? event.images->t_ns : std::llround(event.t_s * 1e9);
+  const int64_t t_ns = event.t_ns ? *event.t_ns : std::llround(event.t_s * 1e9);
   return std::llround(start_time_s * 1e9) + t_ns;
 }
 

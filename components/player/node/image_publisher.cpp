@@ -7,7 +7,6 @@
 
 #include "libs/core/clock.hpp"
 #include "libs/dds/stamp.hpp"
-#include "libs/geometry/frames.hpp"
 
 namespace palpate::player {
 
@@ -25,8 +24,8 @@ dds::CameraIdentity IdentityOf(const experiment::Experiment& experiment) {
 
 ImagePublisher::ImagePublisher(dds::Participant& participant,
                                const experiment::Experiment& experiment,
-                               const std::function<void()>& on_change)
-    : camera_{participant, on_change}, identity_{IdentityOf(experiment)} {}
+                               const std::function<void()>& on_change, const std::string& camera)
+    : camera_{participant, on_change, camera}, identity_{IdentityOf(experiment)} {}
 
 bool ImagePublisher::Publish(const ImageSet& images, std::int64_t stamp_ns) {
   const rgbd::RgbdCamera& camera = images.sequence->camera;
@@ -39,7 +38,7 @@ bool ImagePublisher::Publish(const ImageSet& images, std::int64_t stamp_ns) {
   if (!again) images.sequence->Read(images.index, &frame_);
   last_ = images;
   dds::Message<idl::palpate_msgs::FrameInfo> info;
-  dds::SetHeader(info->header, stamp_ns, geometry::kCameraDepthOpticalFrame);
+  dds::SetHeader(info->header, stamp_ns, camera_.depth_frame());
   info->counter = counter_++;
   info->frame_id = images.index;
   info->epoch = identity_.epoch;

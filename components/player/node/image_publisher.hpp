@@ -17,8 +17,9 @@ namespace palpate::player {
 /// recording, and each time that one begins again, is an epoch.
 class ImagePublisher {
  public:
+  /// `camera`: name of a camera beside the first; empty: the first.
   ImagePublisher(dds::Participant& participant, const experiment::Experiment& experiment,
-                 const std::function<void()>& on_change);
+                 const std::function<void()>& on_change, const std::string& camera = {});
 
   /// Reads and sends the frame set of an event that has images; false where DDS did not take all
   /// of it. Throws InputError where an image cannot be read.

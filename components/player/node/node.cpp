@@ -37,6 +37,10 @@ PlayerNode::PlayerNode(const NodeConfig& config, const Playback& playback, Exper
       pacer_(playback.rate, [] { return Clock::now().time_since_epoch(); }) {
   if (player_.plays_images()) {
     images_.emplace(participant_, player_.experiment(), [this] { loop_.Wake(); });
+    for (const std::string& camera : player_.further_cameras()) {
+      further_.try_emplace(
+          camera, participant_, player_.experiment(), [this] { loop_.Wake(); }, camera);
+    }
   }
   if (config.publish_clock) {
     clock_.emplace(participant_.CreateWriter(dds::kClockTopic));
@@ -64,8 +68,10 @@ void PlayerNode::Run() {
 /// Readers that start together, a recorder among them, are found one after the other.
 void PlayerNode::Settle() {
   const auto readers = [this] {
-    return joint_states_.counters().matched_ever + markers_.counters().matched_ever +
-           (images_ ? images_->readers() : 0);
+    std::uint32_t count = joint_states_.counters().matched_ever + markers_.counters().matched_ever +
+                          (images_ ? images_->readers() : 0);
+    for (const auto& [camera, images] : further_) count += images.readers();
+    return count;
   };
   for (std::uint32_t known = readers() + 1; known != readers();) {
     known = readers();
@@ -130,8 +136,8 @@ void PlayerNode::ConfirmFirst(const Event& event) {
 }
 
 bool PlayerNode::WaitUntilReceived(std::chrono::nanoseconds at_most) {
-  const bool frames =
-      images_ ? images_->WaitUntilReceived(at_most) : markers_.WaitUntilReceived(at_most);
+  bool frames = images_ ? images_->WaitUntilReceived(at_most) : markers_.WaitUntilReceived(at_most);
+  for (auto& [camera, images] : further_) frames = images.WaitUntilReceived(at_most) && frames;
   return joint_states_.WaitUntilReceived(at_most) && frames;
 }
 
@@ -150,8 +156,10 @@ void PlayerNode::WaitForAnswer(const Event& event) {
 }
 
 bool PlayerNode::Answered(const Event& event) const {
+  // Before the first image of the first camera, perception does not know which one it is.
+  const bool is_unnamed = event.t_ns && !event.images && answered_recording_.empty();
   return answered_stamp_ns_ == StampOf(event, config_.start_time_s) &&
-         answered_recording_ == (images_ ? images_->device() : event.recording);
+         (is_unnamed || answered_recording_ == (images_ ? images_->device() : event.recording));
 }
 
 void PlayerNode::Publish(const Event& event) {
@@ -167,11 +175,22 @@ void PlayerNode::Publish(const Event& event) {
     sent = markers_.Write(ToMarkerArray(event, stamp_ns)) && sent;
     ++counts_.published;
   }
-  if (event.images) {
-    sent = images_->Publish(*event.images, stamp_ns) && sent;
+  if (event.t_ns) {
+    sent = PublishImages(event, stamp_ns) && sent;
     ++counts_.published;
   }
   if (!sent) ++counts_.dropped;
+}
+
+/// Each camera's images have their own stamps. Those of the first come last: who takes them finds
+/// the others of the frame.
+bool PlayerNode::PublishImages(const Event& event, std::int64_t stamp_ns) {
+  bool sent = true;
+  for (const FurtherImages& further : event.further) {
+    const std::int64_t later_ns = further.images.t_ns - *event.t_ns;
+    sent = further_.at(further.camera).Publish(further.images, stamp_ns + later_ns) && sent;
+  }
+  return (!event.images || images_->Publish(*event.images, stamp_ns)) && sent;
 }
 
 void PlayerNode::PublishClock(int64_t now_ns) {

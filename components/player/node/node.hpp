@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -52,6 +53,7 @@ class PlayerNode {
   void WaitForAnswer(const Event& event);
   bool Answered(const Event& event) const;
   void Publish(const Event& event);
+  bool PublishImages(const Event& event, std::int64_t stamp_ns);
   void ConfirmFirst(const Event& event);
   bool WaitUntilReceived(std::chrono::nanoseconds at_most);
   void TakeForces();
@@ -69,7 +71,8 @@ class PlayerNode {
   dds::NodeLog log_;
   dds::HealthReporter health_;
   dds::Writer<idl::palpate_msgs::MarkerArray3> markers_;
-  std::optional<ImagePublisher> images_;  ///< where images are played
+  std::optional<ImagePublisher> images_;           ///< where images are played
+  std::map<std::string, ImagePublisher> further_;  ///< of the cameras beside the first, by name
   dds::Writer<idl::sensor_msgs::JointState> joint_states_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;
   std::optional<dds::Writer<idl::rosgraph_msgs::Clock>> clock_;  ///< with publish_clock

@@ -4,6 +4,8 @@
 #include "components/virtual_camera/node/command_line.hpp"
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "libs/app/log.hpp"
 #include "libs/app/project_files.hpp"
@@ -12,11 +14,24 @@
 #include "libs/core/file.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/sha256.hpp"
+#include "libs/core/text.hpp"
 #include "libs/scenario/robot_names.hpp"
 
 namespace palpate::virtual_camera {
 
 namespace {
+
+/// The number of the camera of that name; empty: the first.
+std::size_t NumberOf(const std::string& name, const scenario::Scenario& scenario) {
+  if (name.empty()) return 0;
+  std::vector<std::string> names;
+  for (const scenario::FurtherCamera& camera : scenario.further_cameras) {
+    names.push_back(camera.name);
+    if (camera.name == name) return names.size();
+  }
+  throw InputError("camera_name: scenario '" + scenario.name + "' has no further camera '" + name +
+                   "'" + DidYouMean(name, names));
+}
 
 Scene OpenScene(const Command& command) {
   const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
@@ -28,7 +43,8 @@ Scene OpenScene(const Command& command) {
               Sha256Hex(ReadFile(command.scenario)),
               seed,
               scenario::DrawEffects(scenario, names, seed),
-              {}};
+              {},
+              NumberOf(command.config.camera_name, scenario)};
   scene.markers_m.resize(3, ToIndex(robot.markers.size()));
   for (size_t m = 0; m < robot.markers.size(); ++m) {
     scene.markers_m.col(ToIndex(m)) = robot.markers[m].position_m;

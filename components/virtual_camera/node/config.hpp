@@ -22,6 +22,7 @@ struct ImpairmentConfig {
 
 /// Settings of the process.
 struct NodeConfig {
+  std::string camera_name;
   std::string interface_address = "127.0.0.1";
   std::string vendor = "Palpate";
   std::string model = "Virtual RGB-D";
@@ -34,6 +35,9 @@ struct NodeConfig {
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
+    v("camera_name", camera_name,
+      "Camera of the scenario's list cameras that this process is, taken at the same times as the "
+      "first; empty: the first");
     v("interface_address", interface_address,
       "IPv4 address of the interface on which the camera is found (UDP port 3956)");
     v("vendor", vendor, "As the camera calls its maker");

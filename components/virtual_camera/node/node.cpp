@@ -22,11 +22,18 @@ using Clock = dds::WaitSet::Clock;
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr std::size_t kMostBenchStates = 64;
 
-const scenario::CameraSpec& CameraOf(const scenario::Scenario& scenario) {
+const scenario::CameraSpec& CameraOf(const Scene& scene) {
+  const scenario::Scenario& scenario = scene.schedule.scenario();
   if (!scenario.camera) {
     throw InputError("scenario '" + scenario.name + "' has no camera: nothing can be streamed");
   }
-  return *scenario.camera;
+  return scene.camera == 0 ? *scenario.camera : scenario.further_cameras.at(scene.camera - 1);
+}
+
+/// `name` of the process or component, of a further camera with that camera's name behind it.
+std::string NameOf(const std::string& name, const Scene& scene) {
+  if (scene.camera == 0) return name;
+  return name + "_" + scene.schedule.scenario().further_cameras.at(scene.camera - 1).name;
 }
 
 gige_vision::DeviceSettings DeviceOf(const NodeConfig& config, const Scene& scene) {
@@ -36,7 +43,7 @@ gige_vision::DeviceSettings DeviceOf(const NodeConfig& config, const Scene& scen
   settings.model = config.model;
   settings.serial = config.serial;
   settings.user_name = config.user_name;
-  settings.rate_hz = CameraOf(scene.schedule.scenario()).rate_hz;
+  settings.rate_hz = CameraOf(scene).rate_hz;
   settings.confidence = config.confidence;
   settings.impairment.loss = config.network.loss;
   settings.impairment.seed = scene.seed;
@@ -49,15 +56,16 @@ VirtualCameraNode::VirtualCameraNode(const NodeConfig& config, Scene scene, int 
                                      dds::TopicTable table, dds::NodeLog::ProcessLog process_log)
     : scene_{std::move(scene)},
       silence_s_{config.silence_s},
-      participant_{dds::ParticipantOf(config.dds, "palpate_virtual_camera", domain_id),
-                   std::move(table)},
+      participant_{
+          dds::ParticipantOf(config.dds, NameOf("palpate_virtual_camera", scene_), domain_id),
+          std::move(table)},
       loop_{participant_},
       log_{participant_, std::move(process_log)},
-      health_{participant_, "virtual_camera", Clock::now()},
+      health_{participant_, NameOf("virtual_camera", scene_), Clock::now()},
       meshes_{participant_.CreateReader(dds::kTrueMeshTopic)},
       bench_states_{participant_.CreateReader(dds::kBenchStateTopic)},
       mesh_states_{participant_.CreateReader(dds::kTrueMeshStateTopic)},
-      device_{DeviceOf(config, scene_), CameraOf(scene_.schedule.scenario()).camera},
+      device_{DeviceOf(config, scene_), CameraOf(scene_).camera},
       last_state_ns_{MonotonicNow_ns()},
       inputs_{participant_, loop_, log_} {
   const std::string publisher = "palpate-virtual-robot";
@@ -80,8 +88,8 @@ void VirtualCameraNode::TakeMesh() {
       continue;
     }
     mesh_hash_ = dds::Text(message.mesh_hash);
-    camera_ = std::make_unique<VirtualCamera>(scene_.schedule.scenario(), robot_surface_,
-                                              scene_.effects, scene_.seed);
+    camera_ = MakeCamera(scene_.schedule.scenario(), scene_.camera, robot_surface_, scene_.effects,
+                         scene_.seed);
   }
 }
 
@@ -97,6 +105,8 @@ void VirtualCameraNode::TakeBenchStates() {
       Refuse(status, dds::StampNs(message.header.stamp));
       continue;
     }
+    // The bench says where the first camera stands. The others stay where the scenario has them.
+    if (scene_.camera > 0) view.T_robot_camera = CameraOf(scene_).T_robot_camera;
     benches_[dds::StampNs(message.header.stamp)] = std::move(view);
     if (benches_.size() > kMostBenchStates) benches_.erase(benches_.begin());
   }

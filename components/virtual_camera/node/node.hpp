@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -27,6 +28,7 @@ struct Scene {
   std::uint64_t seed = 0;
   std::vector<scenario::ActiveEffect> effects;
   Eigen::Matrix3Xd markers_m;  ///< [3 x markers] at rest
+  std::size_t camera = 0;      ///< number in the scenario; 0: the first
 };
 
 /// A GigE Vision camera in front of the virtual robot: draws each of its states and streams the

@@ -39,12 +39,17 @@ class PlayedImages : public testing::Test {
     const std::string path = "exp/recordings/" + name;
     folder_.Write(path + "/recording.yaml", "kind: free\n");
     folder_.Write(path + "/actuation.csv", kActuation);
+    WriteImages(path, first, 0);
+  }
+
+  /// Two frames, so late.
+  void WriteImages(const std::string& path, int first, std::int64_t late_ns) {
     rgbd::RgbdCamera camera;
     camera.depth = camera.color = {4, 3, 5.0, 5.0, 1.5, 1.0, {}};
     camera.color_registered = true;
     folder_.Write(path + "/camera.yaml", rgbd::FormatCameraFile(camera));
     for (int i = 0; i < 2; ++i) {
-      const std::string file = std::to_string(100'000'000 * i) + ".png";
+      const std::string file = std::to_string(100'000'000 * i + late_ns) + ".png";
       std::filesystem::create_directories(folder_.path() / path / "depth");
       std::filesystem::create_directories(folder_.path() / path / "color");
       rgbd::WriteDepthPng(folder_.path() / path / "depth" / file,
@@ -74,6 +79,25 @@ TEST_F(PlayedImages, ComeInOrderWithTheCableInputsOfTheirTime) {
     seen.push_back(event->recording + std::to_string(event->images->index));
   }
   EXPECT_THAT(seen, ElementsAre("a0", "a1", "b0", "b1"));
+}
+
+TEST_F(PlayedImages, OfSeveralCamerasAreOneFrameWhereTheyBelongTogether) {
+  constexpr std::int64_t kLate_ns = 12'000'000;
+  WriteImages("exp/recordings/a/cameras/back", 20, kLate_ns);
+  ExperimentPlayer player = Player();
+  EXPECT_THAT(player.further_cameras(), ElementsAre("back"));
+  std::vector<std::string> seen;
+  while (const auto event = player.Next()) {
+    if (!event->t_ns) continue;
+    ASSERT_TRUE(event->images);
+    EXPECT_EQ(event->images->t_ns, *event->t_ns);
+    seen.push_back(event->recording + std::to_string(event->images->index));
+    for (const FurtherImages& further : event->further) {
+      EXPECT_EQ(further.images.t_ns, *event->t_ns + kLate_ns);
+      seen.back() += further.camera + std::to_string(further.images.index);
+    }
+  }
+  EXPECT_THAT(seen, ElementsAre("a0back0", "a1back1", "b0", "b1"));
 }
 
 TEST_F(PlayedImages, RefusesRecordingsWithoutAny) {

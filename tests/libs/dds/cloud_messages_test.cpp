@@ -75,6 +75,35 @@ TEST(CloudMessage, AnEmptyCloudIsACloud) {
   EXPECT_EQ(back.Count(), 0);
 }
 
+TEST(CloudMessage, OfSeveralCamerasHasTheCameraOfEachPoint) {
+  const JoinedCloud cloud{TwoPoints(), {0, 2}};
+  const auto message = ToJoinedPointCloud2(cloud, 7, "camera");
+  EXPECT_EQ(message->point_step, 24u);
+  ASSERT_EQ(message->fields._length, 6u);
+  EXPECT_EQ(Text(message->fields._buffer[5].name), "camera");
+  EXPECT_EQ(message->fields._buffer[5].datatype, 6);
+  JoinedCloud back;
+  ASSERT_TRUE(FromJoinedPointCloud2(*message, &back).ok());
+  EXPECT_EQ(back.points.points_m, cloud.points.points_m);
+  EXPECT_EQ(back.points.sigma_m, cloud.points.sigma_m);
+  EXPECT_EQ(back.points.colors_rgb, cloud.points.colors_rgb);
+  EXPECT_EQ(back.cameras, cloud.cameras);
+  // Who knows one camera takes its points.
+  rgbd::SensedCloud first;
+  ASSERT_TRUE(FromPointCloud2(*message, &first).ok());
+  ASSERT_EQ(first.Count(), 1);
+  EXPECT_EQ(first.points_m.col(0), cloud.points.points_m.col(0));
+}
+
+TEST(CloudMessage, WithoutCamerasIsOfTheFirst) {
+  JoinedCloud back;
+  ASSERT_TRUE(FromJoinedPointCloud2(*ToPointCloud2(TwoPoints(), 7, "camera"), &back).ok());
+  EXPECT_EQ(back.cameras, (std::vector<std::uint32_t>{0, 0}));
+  auto message = ToJoinedPointCloud2({TwoPoints(), {0, 1}}, 7, "camera");
+  message->fields._buffer[5].datatype = 7;
+  EXPECT_THAT(FromJoinedPointCloud2(*message, &back).message(), HasSubstr("layout"));
+}
+
 TEST(CloudMessage, RefusesWhatIsNoCloudOfOurs) {
   EXPECT_EQ(RefusalAfter([](PointCloud2&) {}), "");
   EXPECT_THAT(RefusalAfter([](PointCloud2& m) { m.is_bigendian = true; }), HasSubstr("layout"));

@@ -4,22 +4,17 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include <Eigen/Core>
-#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
-#include "libs/dds/stamp.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "libs/scenario/scenario.hpp"
-#include "tests/libs/dds/test_participant.hpp"
 #include "tests/support/scenarios.hpp"
+#include "tests/system/nightly/force_listener.hpp"
 #include "tests/system/virtual_bench.hpp"
 
 /// The whole system as processes: a push from the camera's frames over GigE Vision to /forces,
@@ -27,121 +22,10 @@
 namespace palpate::system_test::live_forces {
 namespace {
 
-using std::chrono::seconds;
-
-constexpr seconds kPatience{40};
-
 /// Ten frames a second, for machines that have other things to do; the ball holds to the end.
 const std::string kScenario = "name: held\n" +
                               test_support::BodyOfAnotherModulus("four_leg_coarse.msh") +
                               test_support::kBallBeforeASmallCamera + test_support::kBallThatHolds;
-
-struct Push {
-  std::string name;
-  Eigen::Vector3d position_m;
-  Eigen::Vector3d force_N;
-};
-
-struct Answer {
-  std::int64_t stamp_ns = 0;
-  std::string status;
-  std::string reason;
-  std::vector<Push> pushes;
-};
-
-std::ostream& operator<<(std::ostream& stream, const Answer& answer) {
-  stream << answer.status << " '" << answer.reason << "'";
-  for (const Push& push : answer.pushes) {
-    stream << ", " << push.name << " " << push.force_N.norm() << " N";
-  }
-  return stream;
-}
-
-Answer ToAnswer(const idl::palpate_msgs::ForceArray& message) {
-  Answer answer{dds::StampNs(message.header.stamp),
-                std::string(dds::Text(message.status)),
-                std::string(dds::Text(message.reason)),
-                {}};
-  for (const auto& force : dds::Elements(message.forces)) {
-    answer.pushes.push_back({std::string(dds::Text(force.name)),
-                             {force.position_m.x, force.position_m.y, force.position_m.z},
-                             {force.force_n.x, force.force_n.y, force.force_n.z}});
-  }
-  return answer;
-}
-
-/// Hears the estimates, the truth, and how the components fare.
-class Listener {
- public:
-  Listener()
-      : node_("live_listener"),
-        forces_(node_.participant.CreateReader(dds::kForcesTopic)),
-        truth_(node_.participant.CreateReader(dds::kTrueForcesTopic)),
-        statuses_(node_.participant.CreateReader(dds::kComponentStatusTopic)) {
-    node_.loop.Attach(truth_, [this] {
-      for (const auto& message : truth_.Take()) {
-        Answer truth = ToAnswer(message);
-        truths_[truth.stamp_ns] = std::move(truth.pushes);
-      }
-    });
-    node_.loop.Attach(forces_, [this] {
-      for (const auto& message : forces_.Take()) {
-        last_ = ToAnswer(message);
-        right_in_a_row_ = IsRight() ? right_in_a_row_ + 1 : 0;
-      }
-    });
-    node_.loop.Attach(statuses_, [this] {
-      for (const auto& message : statuses_.Take()) {
-        heard_[std::string(dds::Text(message.component_name))] = true;
-      }
-    });
-  }
-
-  bool Heard(const std::string& component) const { return heard_.contains(component); }
-  const Answer& last() const { return last_; }
-  int right_in_a_row() const { return right_in_a_row_; }
-  void Forget() {
-    last_ = {};
-    right_in_a_row_ = 0;
-  }
-
-  template <typename Condition>
-  bool WaitFor(const Condition& condition) {
-    return node_.loop.DispatchUntil(condition, dds::WaitSet::Clock::now() + kPatience);
-  }
-
- private:
-  static constexpr double kFarthest_m = 6e-3;
-  static constexpr double kWorst = 0.25;
-  static constexpr std::int64_t kSameTime_ns = 150'000'000;
-
-  /// One push, with a contact's name, where the true one is and about as hard.
-  bool IsRight() const {
-    const std::vector<Push>* truth = TruthAt(last_.stamp_ns);
-    if (last_.status != "ok" || last_.pushes.size() != 1 || !truth || truth->size() != 1) {
-      return false;
-    }
-    const Push& push = last_.pushes[0];
-    const Push& is = truth->front();
-    return (push.name.starts_with("contact_") || push.name.starts_with("hidden_")) &&
-           (push.position_m - is.position_m).norm() <= kFarthest_m &&
-           std::abs(push.force_N.norm() - is.force_N.norm()) <= kWorst * is.force_N.norm();
-  }
-  const std::vector<Push>* TruthAt(std::int64_t stamp_ns) const {
-    const auto after = truths_.lower_bound(stamp_ns - kSameTime_ns);
-    return after == truths_.end() || after->first > stamp_ns + kSameTime_ns ? nullptr
-                                                                            : &after->second;
-  }
-
-  dds::TestNode node_;
-  dds::Reader<idl::palpate_msgs::ForceArray> forces_;
-  dds::Reader<idl::palpate_msgs::ForceArray> truth_;
-  dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
-  std::map<std::int64_t, std::vector<Push>> truths_;
-  std::map<std::string, bool> heard_;
-  Answer last_;
-  int right_in_a_row_ = 0;
-};
 
 class LiveForces : public testing::Test {
  protected:
@@ -194,7 +78,7 @@ class LiveForces : public testing::Test {
 
   TestFolder folder_;
   std::string pose_;
-  Listener listener_;
+  ForceListener listener_;
   std::unique_ptr<VirtualBench> bench_;
   std::unique_ptr<Process> estimator_;
   std::unique_ptr<Process> perception_;

@@ -33,9 +33,10 @@ using Seen = test_support::SeenFrame;
 /// The node in a thread of its own, and a participant that plays perception, robot and reader.
 class ShapeNodeTest : public testing::Test {
  protected:
-  explicit ShapeNodeTest(const NodeConfig& config = TestConfig())
+  explicit ShapeNodeTest(const NodeConfig& config = TestConfig(),
+                         const std::vector<dds::FurtherCamera>& cameras = {})
       : node_(config, NodeTestRobot(), {}, static_cast<int>(dds::TestDomain()), ManyClouds(), {},
-              script_.Maker()),
+              script_.Maker(), cameras),
         test_("test", ManyClouds()),
         perception_(test_),
         forces_(test_.participant.CreateReader(dds::kForcesTopic, test_.Waker())),

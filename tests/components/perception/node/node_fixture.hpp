@@ -52,6 +52,7 @@ class PerceptionNodeTest : public testing::Test {
     double age_s = 0.0;
     double latency_s = 0.0;
     geometry::DepthPicture picture;
+    std::vector<std::string> notes;
   };
 
   explicit PerceptionNodeTest()
@@ -149,11 +150,18 @@ class PerceptionNodeTest : public testing::Test {
 
   void TakeReports() {
     for (const auto& message : reports_.Take()) {
-      answers_.push_back({dds::StampNs(message.header.stamp), message.counter,
+      answers_.push_back({dds::StampNs(message.header.stamp),
+                          message.counter,
                           std::string(dds::Text(message.status)),
                           std::string(dds::Text(message.reason)),
-                          dds::StampNs(message.prediction_stamp), message.age_s, message.latency_s,
-                          dds::ToPicture(message.picture)});
+                          dds::StampNs(message.prediction_stamp),
+                          message.age_s,
+                          message.latency_s,
+                          dds::ToPicture(message.picture),
+                          {}});
+      for (const char* note : dds::Elements(message.notes)) {
+        answers_.back().notes.emplace_back(dds::Text(note));
+      }
     }
   }
 

@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,7 +17,8 @@
 
 namespace palpate::perception {
 
-/// What the stand-in for Perception was asked, shared between it and the test.
+/// What the stand-in for JointPerception, of one camera, was asked, shared between it and the
+/// test.
 class Script {
  public:
   struct Call {
@@ -57,14 +62,18 @@ class Script {
       script_.config_ = config;
       number_ = ++script_.made_;
     }
-    void SetCamera(const rgbd::RgbdCamera& camera) override {
+    void SetCamera(std::size_t, const rgbd::RgbdCamera& camera) override {
       const std::lock_guard lock(script_.mutex_);
       script_.camera_ = camera;
       ++cameras_;
     }
-    const Observation& Update(const rgbd::RgbdFrame& frame,
-                              const PredictedSurface* predicted) override {
+    void Restart(std::size_t, const Config&) override {}
+    const JointObservation& Update(std::int64_t stamp_ns,
+                                   const std::vector<CameraFrame>& frames) override {
       std::unique_lock lock(script_.mutex_);
+      const rgbd::RgbdFrame& frame = *frames[0].images;
+      EXPECT_EQ(frame.stamp_ns, stamp_ns);
+      const PredictedSurface* predicted = frames[0].predicted;
       Call call{frame.stamp_ns, number_, cameras_, !frame.color.empty(), 0, 0, {}};
       call.depth_value = frame.depth.values.at(0);
       if (call.with_color) call.color_value = frame.color.values.at(0);
@@ -80,16 +89,17 @@ class Script {
     void Fill(const rgbd::RgbdFrame& frame) {
       observation_ = {};
       observation_.stamp_ns = frame.stamp_ns;
-      observation_.frame.status = Status::Ok();
-      observation_.frame.robot.points_m = Eigen::Matrix3Xf::Zero(3, 1);
-      observation_.frame.robot.points_m(2, 0) = 1e-3f * static_cast<float>(frame.depth.values[0]);
-      observation_.frame.robot.sigma_m = Eigen::VectorXf::Constant(1, 1e-3f);
-      observation_.frame.robot.colors_rgb = {1, 2, 3};
-      observation_.frame.object.points_m = Eigen::Matrix3Xf::Ones(3, 2);
-      observation_.frame.object.sigma_m = Eigen::VectorXf::Ones(2);
-      observation_.frame.object.colors_rgb.assign(6, 0);
-      observation_.frame.rejected.at_depth_edge = 17;
-      observation_.frame.notes = {"the light has changed"};
+      SegmentedFrame& seen = observation_.views.emplace_back().frame;
+      seen.status = Status::Ok();
+      seen.robot.points_m = Eigen::Matrix3Xf::Zero(3, 1);
+      seen.robot.points_m(2, 0) = 1e-3f * static_cast<float>(frame.depth.values[0]);
+      seen.robot.sigma_m = Eigen::VectorXf::Constant(1, 1e-3f);
+      seen.robot.colors_rgb = {1, 2, 3};
+      seen.object.points_m = Eigen::Matrix3Xf::Ones(3, 2);
+      seen.object.sigma_m = Eigen::VectorXf::Ones(2);
+      seen.object.colors_rgb.assign(6, 0);
+      seen.rejected.at_depth_edge = 17;
+      seen.notes = {"the light has changed"};
       DetectedContact contact;
       contact.name = "contact_1";
       contact.position_m = {0.1, 0.2, 0.3};
@@ -102,7 +112,7 @@ class Script {
     Script& script_;
     int number_ = 0;
     int cameras_ = 0;
-    Observation observation_;
+    JointObservation observation_;
   };
 
   mutable std::mutex mutex_;

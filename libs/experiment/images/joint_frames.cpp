@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/offline/images/joint_frames.hpp"
+#include "libs/experiment/images/joint_frames.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "libs/core/statistics.hpp"
 
-namespace palpate::offline {
+namespace palpate::experiment {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::vector<JointFrame> JoinFrames(const std::vector<std::vector<std::int64_t>>&
   return joint;
 }
 
-}  // namespace palpate::offline
+}  // namespace palpate::experiment

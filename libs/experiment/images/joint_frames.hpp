@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace palpate::offline {
+namespace palpate::experiment {
 
 struct JointFramesTuning {
   /// Largest time between frames of two cameras that belong together, as a share of the shortest
@@ -29,4 +29,4 @@ struct JointFrame {
 std::vector<JointFrame> JoinFrames(const std::vector<std::vector<std::int64_t>>& t_ns,
                                    const JointFramesTuning& tuning = {});
 
-}  // namespace palpate::offline
+}  // namespace palpate::experiment

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/offline/images/joint_frames.hpp"
+#include "libs/experiment/images/joint_frames.hpp"
 
 #include <gmock/gmock.h>
 
 #include <set>
 
-namespace palpate::offline {
+namespace palpate::experiment {
 namespace {
 
 constexpr std::int64_t kFramePeriod_ns = 33'333'333;
@@ -83,4 +83,4 @@ TEST(JointFrames, AMissingCameraLeavesTheOthers) {
 }
 
 }  // namespace
-}  // namespace palpate::offline
+}  // namespace palpate::experiment

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/dds/further_cameras.hpp"
+
+#include <gmock/gmock.h>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/dds/camera_topics.hpp"
+
+namespace palpate::dds {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string Refusal(const std::vector<std::string>& items) {
+  try {
+    ReadFurtherCameras(items, app::ParseYaml);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(FurtherCameras, AreReadWithAndWithoutPoseInTheOrderOfTheirNames) {
+  const auto cameras = ReadFurtherCameras(
+      {"top", "back: {translation_m: [1, 2, 3], rotation_xyzw: [0, 0, 1, 0]}"}, app::ParseYaml);
+  EXPECT_THAT(NamesOf(cameras), ElementsAre("back", "top"));
+  ASSERT_TRUE(cameras[0].T_robot_camera);
+  EXPECT_EQ(cameras[0].T_robot_camera->translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(cameras[1].T_robot_camera);
+  EXPECT_TRUE(ReadFurtherCameras({}, app::ParseYaml).empty());
+}
+
+TEST(FurtherCameras, RefusesWhatIsNoCamera) {
+  EXPECT_EQ(Refusal({"back"}), "accepted");
+  EXPECT_THAT(Refusal({"back", "back"}), HasSubstr("given twice"));
+  EXPECT_THAT(Refusal({"2nd"}), HasSubstr("no name of a camera"));
+  EXPECT_THAT(Refusal({"_back"}), HasSubstr("no name of a camera"));
+  EXPECT_THAT(Refusal({"back/left"}), HasSubstr("no name of a camera"));
+  EXPECT_THAT(Refusal({"''"}), HasSubstr("without a name"));
+  EXPECT_THAT(Refusal({"back: {translation_m: [1, 2, 3]}"}), HasSubstr("rotation_xyzw"));
+  EXPECT_THAT(Refusal({"back: {translation_m: [1, 2, 3], rotation_xyzw: [0, 0, 1, 1]}"}),
+              HasSubstr("rotation_xyzw"));
+}
+
+TEST(CameraTopics, AreThoseOfTheFirstWithoutANameAndOfTheNamedOneWithIt) {
+  const CameraTopics first = TopicsOf("");
+  EXPECT_EQ(first.depth.name, "/camera/depth/image_raw");
+  EXPECT_EQ(first.depth_frame, "camera_depth_optical_frame");
+  const CameraTopics back = TopicsOf("back");
+  EXPECT_EQ(back.prefix, "/camera_back");
+  EXPECT_EQ(back.depth.name, "/camera_<name>/depth/image_raw");
+  EXPECT_EQ(back.depth_frame, "camera_back_depth_optical_frame");
+  EXPECT_EQ(back.color_frame, "camera_back_color_optical_frame");
+}
+
+}  // namespace
+}  // namespace palpate::dds
