@@ -13,6 +13,7 @@
 #include "components/offline/messages/collected_topics.hpp"
 #include "components/offline/messages/experiment_clock.hpp"
 #include "components/offline/messages/experiment_tables.hpp"
+#include "components/offline/messages/further_cameras.hpp"
 #include "components/offline/messages/image_files.hpp"
 #include "components/offline/messages/phase_plan.hpp"
 #include "components/offline/messages/recorded_camera.hpp"
@@ -95,6 +96,7 @@ class ExperimentMaker {
         robot_(std::move(robot)),
         out_(std::move(out)),
         load_(load),
+        remap_(remap),
         recorded_(recording::MessageFilesOf(target)),
         roles_(FindTopics(recorded_, remap)),
         topics_(CollectTopics(recorded_, roles_)) {
@@ -105,6 +107,8 @@ class ExperimentMaker {
     RequireData();
     const std::int64_t origin_ns = ChooseClock(&topics_, &notes_);
     camera_ = FindCamera(recorded_, roles_, topics_, file_.robot_frame, &notes_);
+    further_ = FindFurtherCameras(recorded_, remap_, file_.robot_frame, ClockOf(topics_, origin_ns),
+                                  &notes_);
     std::vector<Phase> phases = FindPhases();
     experiment_ = file_.experiment;
     FillExperiment();
@@ -120,6 +124,9 @@ class ExperimentMaker {
     WriteCameras();
     const std::size_t notes_before = notes_.size();
     WriteImages(recorded_, roles_, topics_, camera_, Stretches(), &notes_);
+    for (const FurtherRecordedCamera& camera : further_) {
+      WriteFurtherCamera(recorded_, camera, Stretches(), &notes_);
+    }
     RequireWrittenData({notes_.begin() + static_cast<std::ptrdiff_t>(notes_before), notes_.end()});
     for (const auto& [what, count] : topics_.left_out) {
       notes_.push_back("left out: " + std::to_string(count) + " message(s) of " + what);
@@ -191,6 +198,14 @@ class ExperimentMaker {
     if (!experiment_.T_robot_camera && camera_.T_robot_camera) {
       experiment_.T_robot_camera = camera_.T_robot_camera;
       experiment_.T_robot_camera_error = camera_.T_robot_camera_error;
+    }
+    for (const FurtherRecordedCamera& camera : further_) {
+      const auto known = std::find_if(experiment_.cameras.begin(), experiment_.cameras.end(),
+                                      [&](const auto& one) { return one.name == camera.name; });
+      if (known != experiment_.cameras.end() || !camera.camera.T_robot_camera) continue;
+      auto& settings = experiment_.cameras.emplace_back();
+      settings.name = camera.name;
+      settings.T_robot_camera = camera.camera.T_robot_camera;
     }
     if (!experiment_.markers_sigma_m) experiment_.markers_sigma_m = MarkerSigma(topics_.markers);
     if (!experiment_.depth_noise && !topics_.setups.empty() &&
@@ -277,11 +292,13 @@ class ExperimentMaker {
   fs::path robot_;  ///< empty: not given
   fs::path out_;
   const ConfigLoader& load_;
+  std::vector<std::string> remap_;
   recording::RecordedMessages recorded_;
   TopicRoles roles_;
   CollectedTopics topics_;
   PhaseFile file_;
   RecordedCamera camera_;
+  std::vector<FurtherRecordedCamera> further_;
   std::optional<ActuationRows> actuation_;
   experiment::Experiment experiment_;
   std::vector<Stretch> stretches_;  ///< of the experiment's recordings

@@ -21,12 +21,13 @@ void FrameJoining::Add(std::size_t camera, FrameSet set) {
       dropped_ += one.waiting.size();
       one = {};
     }
-    last_end_ns_.reset();
+    last_stamp_ns_.reset();
   }
   stamps_ns.push_back(set.stamp_ns);
   if (stamps_ns.size() > tuning_.periods + 1) stamps_ns.pop_front();
   cameras_[camera].misses = 0;
-  if (last_end_ns_ && set.stamp_ns <= *last_end_ns_) {
+  const auto& missed_until_ns = cameras_[camera].missed_until_ns;
+  if (missed_until_ns && set.stamp_ns <= *missed_until_ns) {
     ++dropped_;
     return;
   }
@@ -74,6 +75,18 @@ const FrameSet* FrameJoining::Earliest() const {
 }
 
 std::optional<JointSet> FrameJoining::Take(Time now) {
+  while (auto joint = TakeNext(now)) {
+    if (!last_stamp_ns_ || joint->stamp_ns > *last_stamp_ns_) {
+      last_stamp_ns_ = joint->stamp_ns;
+      return joint;
+    }
+    // Before the periods are known, sets that are far apart may have been joined.
+    ++dropped_;
+  }
+  return std::nullopt;
+}
+
+std::optional<JointSet> FrameJoining::TakeNext(Time now) {
   const FrameSet* earliest = Earliest();
   if (earliest == nullptr) return std::nullopt;
   const std::int64_t longest_ns = cameras_.size() > 1 ? LongestApart_ns() : 0;
@@ -83,19 +96,24 @@ std::optional<JointSet> FrameJoining::Take(Time now) {
     const bool waits = camera.waiting.empty() && MayCome(camera, end_ns, longest_ns);
     if (waits && !is_overdue) return std::nullopt;
   }
+  return Join(end_ns, longest_ns, now);
+}
+
+JointSet FrameJoining::Join(std::int64_t end_ns, std::int64_t longest_ns, Time now) {
   JointSet joint{.stamp_ns = 0, .sets = {}, .taken = now};
   bool has_set = false;
   for (Camera& camera : cameras_) {
     std::optional<FrameSet>& set = joint.sets.emplace_back();
+    camera.missed_until_ns = end_ns;
     if (camera.waiting.empty()) {
       if (MayCome(camera, end_ns, longest_ns)) ++camera.misses;
     } else if (camera.waiting.front().stamp_ns <= end_ns) {
       set = std::move(camera.waiting.front());
       camera.waiting.pop_front();
+      camera.missed_until_ns.reset();
       if (!std::exchange(has_set, true)) joint.stamp_ns = set->stamp_ns;
     }
   }
-  last_end_ns_ = end_ns;
   return joint;
 }
 

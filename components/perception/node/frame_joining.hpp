@@ -60,6 +60,8 @@ class FrameJoining {
   struct Camera {
     std::deque<FrameSet> waiting;
     std::deque<std::int64_t> stamps_ns;  ///< of its last sets
+    /// Up to here its sets would have been part of the last frame, which went on without it.
+    std::optional<std::int64_t> missed_until_ns;
     int misses = 0;
   };
 
@@ -69,11 +71,13 @@ class FrameJoining {
   /// Whether a set of the camera, of which none waits, may come with a stamp up to `end_ns`.
   bool MayCome(const Camera& camera, std::int64_t end_ns, std::int64_t longest_ns) const;
   const FrameSet* Earliest() const;
+  JointSet Join(std::int64_t end_ns, std::int64_t longest_ns, Time now);
+  std::optional<JointSet> TakeNext(Time now);
 
   std::vector<Camera> cameras_;
   std::chrono::steady_clock::duration wait_;
   FrameJoiningTuning tuning_;
-  std::optional<std::int64_t> last_end_ns_;  ///< up to which sets were joined
+  std::optional<std::int64_t> last_stamp_ns_;  ///< of the last frame
   std::uint64_t dropped_ = 0;
 };
 

@@ -233,8 +233,10 @@ void PageFeed::TakeCloud(const char* topic, const char* kind,
                          const idl::sensor_msgs::PointCloud2& message, Cloud* cloud) {
   Count(topic, std::nullopt);
   if (!outputs_.wants_clouds()) return;
-  const Status read = dds::FromPointCloud2(message, &cloud->cloud);
+  dds::JoinedCloud joined;
+  const Status read = dds::FromJoinedPointCloud2(message, &joined);
   if (!read.ok()) return Warn(topic, read);
+  cloud->cloud = std::move(joined.points);
   cloud->frame = dds::Text(message.header.frame_id);
   cloud->stamp_ns = dds::StampNs(message.header.stamp);
   const auto T_robot_cloud = RobotFrom(cloud->frame);

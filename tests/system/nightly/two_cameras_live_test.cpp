@@ -56,8 +56,8 @@ const std::string kBallBehind = R"(recordings:
 
 class TwoCameraProcesses : public testing::Test {
  protected:
-  static constexpr auto kFrontAddress = "127.0.0.51";
-  static constexpr auto kBackAddress = "127.0.0.52";
+  static constexpr auto kFrontAddress = "127.0.0.71";
+  static constexpr auto kBackAddress = "127.0.0.72";
 
   TwoCameraProcesses() {
     std::filesystem::copy_file(config_ / "scenarios/four_leg_coarse.msh",

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "components/capture/genicam_source.hpp"
+#include "libs/dds/camera_topics.hpp"
 #include "libs/dds/stamp.hpp"
 #include "tests/components/capture/node/scripted_source.hpp"
 #include "tests/components/capture/simulated_camera.hpp"
@@ -47,14 +48,17 @@ class RunningNode {
 /// Keeps what it last saw on each of the camera's topics.
 class Subscriber {
  public:
-  Subscriber()
-      : node_("subscriber"),
-        depth_(node_.participant.CreateReader(dds::kDepthImageTopic, node_.Waker())),
-        color_(node_.participant.CreateReader(dds::kColorImageTopic, node_.Waker())),
-        depth_camera_(node_.participant.CreateReader(dds::kDepthCameraInfoTopic, node_.Waker())),
-        color_camera_(node_.participant.CreateReader(dds::kColorCameraInfoTopic, node_.Waker())),
-        info_(node_.participant.CreateReader(dds::kFrameInfoTopic, node_.Waker())),
-        setup_(node_.participant.CreateReader(dds::kCameraSetupTopic, node_.Waker())),
+  /// `camera`: name of a camera beside the first.
+  explicit Subscriber(const std::string& camera = {})
+      : component_(camera.empty() ? "capture" : "capture_" + camera),
+        topics_(dds::TopicsOf(camera)),
+        node_("subscriber"),
+        depth_(node_.participant.CreateReader(topics_.depth, node_.Waker(), camera)),
+        color_(node_.participant.CreateReader(topics_.color, node_.Waker(), camera)),
+        depth_camera_(node_.participant.CreateReader(topics_.depth_lens, node_.Waker(), camera)),
+        color_camera_(node_.participant.CreateReader(topics_.color_lens, node_.Waker(), camera)),
+        info_(node_.participant.CreateReader(topics_.frame_info, node_.Waker(), camera)),
+        setup_(node_.participant.CreateReader(topics_.setup, node_.Waker(), camera)),
         status_(node_.participant.CreateReader(dds::kComponentStatusTopic)) {
     node_.loop.Every(std::chrono::milliseconds(5), [] {});
     node_.loop.Attach(depth_, [this] { Take(depth_, &depth_frames, &Subscriber::KeepDepth); });
@@ -79,7 +83,7 @@ class Subscriber {
     });
     node_.loop.Attach(status_, [this] {
       for (const auto& status : status_.Take()) {
-        if (dds::Text(status.component_name) != "capture") continue;
+        if (dds::Text(status.component_name) != component_) continue;
         status_word = dds::Text(status.status);
         status_text = dds::Text(status.reason);
         dropped = status.dropped;
@@ -142,6 +146,8 @@ class Subscriber {
     }
   }
 
+  std::string component_;
+  dds::CameraTopics topics_;
   TestNode node_;
   dds::Reader<idl::sensor_msgs::Image> depth_;
   dds::Reader<idl::sensor_msgs::Image> color_;
@@ -196,6 +202,25 @@ TEST(CaptureNode, PublishesAFrameSetUnderOneStamp) {
   EXPECT_EQ(subscriber.depth_unit_m, camera->depth_unit_m);
   EXPECT_EQ(subscriber.clock_source, "ptp");
   EXPECT_EQ(subscriber.hash.size(), 64u);
+}
+
+TEST(CaptureNode, OfACameraBesideTheFirstHasTopicsFramesAndStatusOfItsName) {
+  Script script;
+  script.Set(Streaming(1));
+  NodeConfig config;
+  config.camera_name = "back";
+  RunningNode node(std::make_unique<ScriptedSource>(script), config);
+  Subscriber first;
+  Subscriber back("back");
+  ASSERT_TRUE(back.WaitFor([&] { return back.matched(); }));
+  script.Send(PatternSourceFrame(7, 1, std::make_shared<rgbd::RgbdCamera>(SmallCamera())));
+  ASSERT_TRUE(back.WaitFor([&] {
+    return back.depth_frames == 1 && back.color_frames == 1 && back.infos == 1 &&
+           back.setup_epoch == 1 && back.status_word == "ok";
+  }));
+  EXPECT_EQ(back.depth_frame, "camera_back_depth_optical_frame");
+  EXPECT_EQ(back.color_frame, "camera_back_color_optical_frame");
+  EXPECT_FALSE(first.matched());
 }
 
 TEST(CaptureNode, ALateJoinerGetsCameraAndSetup) {

@@ -57,9 +57,13 @@ class FurtherCameraNodeTest : public PerceptionNodeTest {
         std::vector<dds::FurtherCamera>{{"back", std::move(second)}});
   }
 
+  /// The robot is of one known colour: there is no prediction.
+  static void SetColor(Config* config) { config->robot_color_rgb = {0.85, 0.30, 0.25}; }
+
   void Start() {
     config_ = TestConfig();
     config_.camera_wait_s = 0.2;
+    SetColor(&config_);
     node_ = MakeNode(config_, poses_[0], poses_[1]);
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] {
@@ -108,7 +112,9 @@ TEST_F(FurtherCameraNodeTest, OneCloudHoldsWhatBothCamerasSeeAsOffline) {
   rgbd::RgbdFrame front = front_again.Take(front_again.Rest());
   rgbd::RgbdFrame back = back_again.Take(back_again.Rest());
   front.stamp_ns = back.stamp_ns = kFrame_ns;
-  JointPerception perception{Config{}};
+  Config config;
+  SetColor(&config);
+  JointPerception perception{config};
   perception.Open({CameraOf(front_scene_), CameraOf(back_scene_)});
   const JointObservation& expected =
       perception.Update(kFrame_ns, {{.images = &front, .T_robot_camera = poses_[0]},

@@ -29,6 +29,9 @@ scenario::Scenario SmallScene() {
   scenario.camera->camera.color = scenario.camera->camera.depth;
   scenario.camera->camera.baseline_m = 0.05;
   scenario.camera->T_robot_camera.translation() = Eigen::Vector3d(0.0, 0.0, -0.4);
+  scenario.further_cameras.emplace_back();
+  static_cast<scenario::CameraSpec&>(scenario.further_cameras[0]) = *scenario.camera;
+  scenario.further_cameras[0].name = "back";
   return scenario;
 }
 
@@ -51,6 +54,7 @@ class VirtualCameraNodeTest : public ::testing::Test {
         status_(bench_.participant.CreateReader(dds::kComponentStatusTopic)) {
     bench_.loop.Attach(status_, [this] {
       for (const auto& message : status_.Take()) {
+        component_ = dds::Text(message.component_name);
         published_ = message.published;
         refused_ = message.refused;
         word_ = dds::Text(message.status);
@@ -64,13 +68,15 @@ class VirtualCameraNodeTest : public ::testing::Test {
     thread_.join();
   }
 
-  void Start(double silence_s = 30.0) {
+  /// `camera`: number in the scenario.
+  void Start(double silence_s = 30.0, std::size_t camera = 0) {
     NodeConfig config;
     config.interface_address = "127.0.0.51";
     config.silence_s = silence_s;
     node_ = std::make_unique<VirtualCameraNode>(
-        config, Scene{{SmallScene(), {}}, "hash", 3, {}, {}}, static_cast<int>(dds::TestDomain()),
-        dds::BuiltInTable(), [](Severity, std::string_view text) { std::cout << text << "\n"; });
+        config, Scene{{SmallScene(), {}}, "hash", 3, {}, {}, camera},
+        static_cast<int>(dds::TestDomain()), dds::BuiltInTable(),
+        [](Severity, std::string_view text) { std::cout << text << "\n"; });
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(bench_.WaitFor([this] {
       return mesh_.matched() > 0 && mesh_states_.matched() > 0 && bench_states_.matched() > 0;
@@ -99,6 +105,7 @@ class VirtualCameraNodeTest : public ::testing::Test {
   std::thread thread_;
   std::uint64_t published_ = 0;
   std::uint64_t refused_ = 0;
+  std::string component_;
   std::string word_;
   std::string reason_;
 };
@@ -114,6 +121,17 @@ TEST_F(VirtualCameraNodeTest, TakesAPictureOfEachState) {
   }));
   EXPECT_EQ(refused_, 0u);
   EXPECT_EQ(word_, "ok");
+}
+
+TEST_F(VirtualCameraNodeTest, OfACameraBesideTheFirstIsAComponentOfItsName) {
+  ASSERT_TRUE(mesh_.Write(Plate()));
+  Start(30.0, 1);
+  std::int64_t stamp_ns = 0;
+  EXPECT_TRUE(bench_.WaitFor([&] {
+    if (published_ == 0) Publish(++stamp_ns);
+    return published_ > 0;
+  }));
+  EXPECT_EQ(component_, "virtual_camera_back");
 }
 
 TEST_F(VirtualCameraNodeTest, RefusesTheTruthOfAnotherScenario) {
