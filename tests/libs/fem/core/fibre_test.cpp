@@ -153,6 +153,27 @@ TEST_P(FibresOf, TheTangentOfTheBodyIsTheDerivativeOfItsForces) {
   }
 }
 
+/// What error bounds of forces take for dF/dlnE: the forces of the cells, without the fibres.
+TEST_P(FibresOf, OnlyTheForcesOfCellsGrowWithTheModulus) {
+  constexpr double kModulus_Pa = 1e3, kStep = 1e-3;
+  const Material material{MaterialModel::kStableNeoHookean, Volumetric::kPointwise, kModulus_Pa,
+                          0.3};
+  ElasticBody body(mesh_, {material}, std::vector<int>(static_cast<size_t>(mesh_.CellCount())),
+                   {fibre_});
+  const auto forces = [&](double factor) {
+    body.SetYoungsModulus(0, factor * kModulus_Pa);
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m_.size());
+    body.AddForces(x_m_, force_N);
+    return force_N;
+  };
+  const Eigen::VectorXd by_modulus_N = (forces(1.0 + kStep) - forces(1.0 - kStep)) / (2.0 * kStep);
+  body.SetYoungsModulus(0, kModulus_Pa);
+  Eigen::VectorXd of_cells_N = Eigen::VectorXd::Zero(x_m_.size());
+  body.AddForcesOfCells(x_m_, of_cells_N);
+  EXPECT_LE((by_modulus_N - of_cells_N).norm(), 1e-9 * of_cells_N.norm());
+  EXPECT_GT(Forces(x_m_).norm(), 0.1 * of_cells_N.norm());
+}
+
 TEST_P(FibresOf, DerivativesAlongPositionsAndRestShapeAreThoseOfDifferences) {
   for (int trial = 0; trial < 3; ++trial) {
     const Eigen::VectorXd d = RandomVector(x_m_.size(), 1.0, &engine_);
