@@ -70,6 +70,35 @@ void SetNotes(const std::vector<std::string>& notes, idl::palpate_msgs::Percepti
   for (std::size_t i = 0; i < notes.size(); ++i) dds::SetText(report.notes._buffer[i], notes[i]);
 }
 
+/// What one camera shows.
+dds::Message<idl::palpate_msgs::PerceptionReport> ReportWithoutNotes(const FrameOutcome& outcome,
+                                                                     std::size_t camera,
+                                                                     std::string_view depth_frame) {
+  const CameraOrigin& origin = outcome.cameras[camera];
+  const CameraView& view = outcome.observation.views[camera];
+  const SegmentedFrame& frame = view.frame;
+  dds::Message<idl::palpate_msgs::PerceptionReport> report;
+  dds::SetHeader(report->header, outcome.stamp_ns, depth_frame);
+  report->frame_counter = origin.frame_counter;
+  report->epoch = origin.epoch;
+  dds::SetText(report->device, origin.device);
+  dds::SetPicture(report->picture, origin.picture);
+  dds::SetText(report->status, ToString(frame.status.code()));
+  dds::SetText(report->reason, frame.status.message());
+  report->robot_points = static_cast<std::uint32_t>(frame.robot.Count());
+  report->object_points = static_cast<std::uint32_t>(frame.object.Count());
+  report->contacts = static_cast<std::uint32_t>(outcome.observation.contacts.size());
+  report->invalid_depth = static_cast<std::uint64_t>(frame.rejected.invalid_depth);
+  report->out_of_range = static_cast<std::uint64_t>(frame.rejected.out_of_range);
+  report->isolated = static_cast<std::uint64_t>(frame.rejected.isolated);
+  report->at_depth_edge = static_cast<std::uint64_t>(frame.rejected.at_depth_edge);
+  report->ambiguous = static_cast<std::uint64_t>(frame.rejected.ambiguous);
+  report->thinned = static_cast<std::uint64_t>(frame.rejected.thinned);
+  SetTexture(view.texture, *report);
+  report->prediction_stamp = dds::TimeFromNs(outcome.prediction_stamp_ns);
+  return report;
+}
+
 /// Points of all cameras in the frame of the first.
 dds::JoinedCloud Joined(const FrameOutcome& outcome, rgbd::SensedCloud SegmentedFrame::*part) {
   Eigen::Index count = 0;
@@ -139,12 +168,15 @@ std::string FrameOutcome::NameOf(std::size_t camera) const {
 }
 
 dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& outcome) {
-  auto report = ToReportOf(outcome, 0, std::string(geometry::kCameraDepthOpticalFrame));
-  if (outcome.cameras.size() == 1) return report;
+  auto report = ReportWithoutNotes(outcome, 0, geometry::kCameraDepthOpticalFrame);
+  std::vector<std::string> notes = outcome.observation.views[0].frame.notes;
+  if (outcome.cameras.size() == 1) {
+    SetNotes(notes, *report);
+    return report;
+  }
   const Status& status = outcome.observation.status();
   dds::SetText(report->status, ToString(status.code()));
   dds::SetText(report->reason, status.message());
-  std::vector<std::string> notes = outcome.observation.views[0].frame.notes;
   report->robot_points = report->object_points = 0;
   for (std::size_t k = 0; k < outcome.cameras.size(); ++k) {
     const SegmentedFrame& frame = outcome.observation.views[k].frame;
@@ -160,29 +192,8 @@ dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& o
 dds::Message<idl::palpate_msgs::PerceptionReport> ToReportOf(const FrameOutcome& outcome,
                                                              std::size_t camera,
                                                              const std::string& depth_frame) {
-  const CameraOrigin& origin = outcome.cameras[camera];
-  const CameraView& view = outcome.observation.views[camera];
-  const SegmentedFrame& frame = view.frame;
-  dds::Message<idl::palpate_msgs::PerceptionReport> report;
-  dds::SetHeader(report->header, outcome.stamp_ns, depth_frame);
-  report->frame_counter = origin.frame_counter;
-  report->epoch = origin.epoch;
-  dds::SetText(report->device, origin.device);
-  dds::SetPicture(report->picture, origin.picture);
-  dds::SetText(report->status, ToString(frame.status.code()));
-  dds::SetText(report->reason, frame.status.message());
-  report->robot_points = static_cast<std::uint32_t>(frame.robot.Count());
-  report->object_points = static_cast<std::uint32_t>(frame.object.Count());
-  report->contacts = static_cast<std::uint32_t>(outcome.observation.contacts.size());
-  report->invalid_depth = static_cast<std::uint64_t>(frame.rejected.invalid_depth);
-  report->out_of_range = static_cast<std::uint64_t>(frame.rejected.out_of_range);
-  report->isolated = static_cast<std::uint64_t>(frame.rejected.isolated);
-  report->at_depth_edge = static_cast<std::uint64_t>(frame.rejected.at_depth_edge);
-  report->ambiguous = static_cast<std::uint64_t>(frame.rejected.ambiguous);
-  report->thinned = static_cast<std::uint64_t>(frame.rejected.thinned);
-  SetTexture(view.texture, *report);
-  SetNotes(frame.notes, *report);
-  report->prediction_stamp = dds::TimeFromNs(outcome.prediction_stamp_ns);
+  auto report = ReportWithoutNotes(outcome, camera, depth_frame);
+  SetNotes(outcome.observation.views[camera].frame.notes, *report);
   return report;
 }
 

@@ -102,9 +102,14 @@ std::optional<JointSet> FrameJoining::TakeNext(Time now) {
 JointSet FrameJoining::Join(std::int64_t end_ns, std::int64_t longest_ns, Time now) {
   JointSet joint{.stamp_ns = 0, .sets = {}, .taken = now};
   bool has_set = false;
+  // Before a period is known, the next set of a camera may be as near as a late one.
+  const bool knows_period = std::any_of(cameras_.begin(), cameras_.end(), [this](const auto& one) {
+    return Period_ns(one).has_value();
+  });
+  const std::int64_t missed_until_ns = knows_period ? end_ns : end_ns - longest_ns;
   for (Camera& camera : cameras_) {
     std::optional<FrameSet>& set = joint.sets.emplace_back();
-    camera.missed_until_ns = end_ns;
+    camera.missed_until_ns = missed_until_ns;
     if (camera.waiting.empty()) {
       if (MayCome(camera, end_ns, longest_ns)) ++camera.misses;
     } else if (camera.waiting.front().stamp_ns <= end_ns) {

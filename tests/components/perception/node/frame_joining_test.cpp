@@ -164,6 +164,15 @@ TEST(FrameJoining, ACameraOfHalfTheRateIsNotWaitedForInEveryFrame) {
             (std::vector<Stamps>{{0, 0}, {33, -1}, {66, 66}, {99, -1}, {132, 132}, {165, -1}}));
 }
 
+TEST(FrameJoining, BeforeAPeriodIsKnownTheSecondSetIsNoLateOne) {
+  FrameJoining joining(2, kWait);
+  joining.Add(0, SetAt(33));
+  EXPECT_EQ(StampsOf(joining.Take(kBegin + kWait)), (Stamps{33, -1}));
+  joining.Add(1, SetAt(66));
+  joining.Add(0, SetAt(66));
+  EXPECT_EQ(StampsOf(joining.Take(kBegin)), (Stamps{66, 66}));
+}
+
 TEST(FrameJoining, ARecordingFromTheBeginningIsJoinedWithNothingOfBefore) {
   FrameJoining joining(2, kWait);
   joining.Add(0, SetAt(1000));

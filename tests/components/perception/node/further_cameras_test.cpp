@@ -185,6 +185,25 @@ TEST_F(FurtherCameraNodeTest, ImagesOfAnotherSizeInBothAreAnswered) {
   EXPECT_EQ(cloud_.points.Count(), 0);
 }
 
+TEST(JointReport, KeepsTheNotesOfTheFirstCameraBesideThoseOfMissingOnes) {
+  FrameOutcome outcome;
+  outcome.cameras.resize(2);
+  outcome.cameras[1].name = "back";
+  outcome.cameras[1].status = {StatusCode::kStale, "no image of this time"};
+  outcome.observation.views.resize(2);
+  outcome.observation.views[0].frame.status = Status::Ok();
+  outcome.observation.views[0].frame.notes = {"the light has changed"};
+  outcome.observation.views[1].frame.status = outcome.cameras[1].status;
+  const auto report = ToReport(outcome);
+  EXPECT_EQ(dds::Text(report->status), "ok");
+  ASSERT_EQ(report->notes._length, 2u);
+  EXPECT_EQ(dds::Text(report->notes._buffer[0]), "the light has changed");
+  EXPECT_EQ(dds::Text(report->notes._buffer[1]), "camera 'back': no image of this time");
+  const auto back = ToReportOf(outcome, 1, "camera_back_depth_optical_frame");
+  EXPECT_EQ(dds::Text(back->status), "stale");
+  EXPECT_EQ(back->notes._length, 0u);
+}
+
 TEST_F(FurtherCameraNodeTest, PosesOfAllCamerasAreRequired) {
   NodeConfig config = TestConfig();
   EXPECT_THROW(MakeNode(config, std::nullopt, poses_[1]), InputError);
