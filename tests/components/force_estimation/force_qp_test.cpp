@@ -10,7 +10,7 @@
 namespace palpate::force_estimation {
 namespace {
 
-constexpr double kSigma_m = 1e-4;
+constexpr double kRowSigma_m = 1e-4;
 
 /// The undeformed beam, observed along the normals of its feature points; forces at two places.
 class ForceQpOnBeam : public testing::Test {
@@ -49,12 +49,12 @@ class ForceQpOnBeam : public testing::Test {
     return rows;
   }
 
-  /// Rows that are off by `offsets_m` [rows] times kSigma_m, the last one not measured.
+  /// Rows that are off by `offsets_m` [rows] times kRowSigma_m, the last one not measured.
   RowTargets Targets(const Eigen::VectorXd& offsets) const {
     RowTargets targets;
     targets.rows = static_cast<int>(offsets.size()) - 1;
-    targets.value_m = compliance_.delta_e_free_m() + kSigma_m * offsets;
-    targets.weight = Eigen::VectorXd::Constant(offsets.size(), 1.0 / (kSigma_m * kSigma_m));
+    targets.value_m = compliance_.delta_e_free_m() + kRowSigma_m * offsets;
+    targets.weight = Eigen::VectorXd::Constant(offsets.size(), 1.0 / (kRowSigma_m * kRowSigma_m));
     targets.weight.tail<1>().setZero();
     return targets;
   }
@@ -81,7 +81,7 @@ TEST_F(ForceQpOnBeam, ForcesBalanceResidualAndPrior) {
   const Eigen::VectorXd pull = qp_.Projection(targets, residual_m);
   EXPECT_LT((pull + prior * qp_.lambda_f_N()).norm(), 1e-9 * pull.norm());
   EXPECT_NEAR(qp_.ChiSquared(targets),
-              residual_m.head(targets.rows).squaredNorm() / (kSigma_m * kSigma_m),
+              residual_m.head(targets.rows).squaredNorm() / (kRowSigma_m * kRowSigma_m),
               1e-9 * qp_.ChiSquared(targets));
 }
 

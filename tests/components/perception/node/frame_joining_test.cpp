@@ -17,9 +17,9 @@ using std::chrono::milliseconds;
 
 constexpr std::int64_t kMs_ns = 1'000'000;
 constexpr auto kWait = milliseconds(100);
-const FrameSet::Time kBegin{};
+const FrameSet::Time kFirstTaken{};
 
-FrameSet SetAt(std::int64_t stamp_ms, FrameSet::Time taken = kBegin) {
+FrameSet SetAt(std::int64_t stamp_ms, FrameSet::Time taken = kFirstTaken) {
   FrameSet set;
   set.stamp_ns = stamp_ms * kMs_ns;
   set.taken = taken;
@@ -40,11 +40,11 @@ TEST(FrameJoining, OfOneCameraPassesEverySetAtOnce) {
   FrameJoining joining(1, kWait);
   for (const std::int64_t stamp_ms : {40, 73, 73, 10}) {  // repeated, then from the beginning
     joining.Add(0, SetAt(stamp_ms));
-    const auto joint = joining.Take(kBegin);
+    const auto joint = joining.Take(kFirstTaken);
     EXPECT_EQ(StampsOf(joint), Stamps{stamp_ms});
     EXPECT_EQ(joint->stamp_ns, stamp_ms * kMs_ns);
   }
-  EXPECT_FALSE(joining.Take(kBegin));
+  EXPECT_FALSE(joining.Take(kFirstTaken));
   EXPECT_FALSE(joining.NextOverdue());
   EXPECT_EQ(joining.dropped(), 0u);
 }
@@ -52,13 +52,13 @@ TEST(FrameJoining, OfOneCameraPassesEverySetAtOnce) {
 TEST(FrameJoining, WaitsForTheOtherCameraAndHasTheStampOfTheFirst) {
   FrameJoining joining(2, kWait);
   joining.Add(1, SetAt(12));
-  EXPECT_FALSE(joining.Take(kBegin));
-  EXPECT_EQ(joining.NextOverdue(), kBegin + kWait);
+  EXPECT_FALSE(joining.Take(kFirstTaken));
+  EXPECT_EQ(joining.NextOverdue(), kFirstTaken + kWait);
   joining.Add(0, SetAt(20));
-  const auto joint = joining.Take(kBegin + milliseconds(5));
+  const auto joint = joining.Take(kFirstTaken + milliseconds(5));
   EXPECT_EQ(StampsOf(joint), (Stamps{20, 12}));
   EXPECT_EQ(joint->stamp_ns, 20 * kMs_ns);
-  EXPECT_EQ(joint->taken, kBegin + milliseconds(5));
+  EXPECT_EQ(joint->taken, kFirstTaken + milliseconds(5));
 }
 
 /// The same frames as those of a recording with these stamps.
@@ -72,7 +72,7 @@ TEST(FrameJoining, JoinsWhatIsJoinedOffline) {
     while (const auto joint = joining.Take(now)) live.push_back(StampsOf(joint));
   };
   for (std::int64_t ms = 0; ms < 300; ++ms) {
-    const FrameSet::Time now = kBegin + milliseconds(ms);
+    const FrameSet::Time now = kFirstTaken + milliseconds(ms);
     for (std::size_t k = 0; k < 2; ++k) {
       for (const std::int64_t stamp_ms : stamps_ms[k]) {
         if (stamp_ms != ms) continue;
@@ -82,7 +82,7 @@ TEST(FrameJoining, JoinsWhatIsJoinedOffline) {
     }
     take(now);
   }
-  take(kBegin + milliseconds(1000));
+  take(kFirstTaken + milliseconds(1000));
   std::vector<Stamps> offline;
   for (const experiment::JointFrame& frame : experiment::JoinFrames(t_ns)) {
     Stamps& stamps = offline.emplace_back();
@@ -113,7 +113,7 @@ class LostCamera : public testing::Test {
 
   FrameJoining joining_{2, milliseconds(30)};
   std::int64_t stamp_ms_ = 0;
-  FrameSet::Time now_ = kBegin;
+  FrameSet::Time now_ = kFirstTaken;
 };
 
 TEST_F(LostCamera, DelaysThreeFramesByTheWaitAndNoneAfterThem) {
@@ -156,7 +156,7 @@ TEST(FrameJoining, ACameraOfHalfTheRateIsNotWaitedForInEveryFrame) {
   for (std::int64_t i = 0; i < 6; ++i) {
     joining.Add(0, SetAt(33 * i));
     if (i % 2 == 0) joining.Add(1, SetAt(33 * i));
-    while (const auto joint = joining.Take(kBegin)) live.push_back(StampsOf(joint));
+    while (const auto joint = joining.Take(kFirstTaken)) live.push_back(StampsOf(joint));
     // Its period is known from its second set on.
     EXPECT_EQ(live.size(), static_cast<std::size_t>(i == 1 ? 1 : i + 1));
   }
@@ -167,21 +167,21 @@ TEST(FrameJoining, ACameraOfHalfTheRateIsNotWaitedForInEveryFrame) {
 TEST(FrameJoining, BeforeAPeriodIsKnownTheSecondSetIsNoLateOne) {
   FrameJoining joining(2, kWait);
   joining.Add(0, SetAt(33));
-  EXPECT_EQ(StampsOf(joining.Take(kBegin + kWait)), (Stamps{33, -1}));
+  EXPECT_EQ(StampsOf(joining.Take(kFirstTaken + kWait)), (Stamps{33, -1}));
   joining.Add(1, SetAt(66));
   joining.Add(0, SetAt(66));
-  EXPECT_EQ(StampsOf(joining.Take(kBegin)), (Stamps{66, 66}));
+  EXPECT_EQ(StampsOf(joining.Take(kFirstTaken)), (Stamps{66, 66}));
 }
 
 TEST(FrameJoining, ARecordingFromTheBeginningIsJoinedWithNothingOfBefore) {
   FrameJoining joining(2, kWait);
   joining.Add(0, SetAt(1000));
   joining.Add(1, SetAt(1000));
-  EXPECT_TRUE(joining.Take(kBegin));
+  EXPECT_TRUE(joining.Take(kFirstTaken));
   joining.Add(0, SetAt(1033));
   joining.Add(1, SetAt(5));
   joining.Add(0, SetAt(5));
-  EXPECT_EQ(StampsOf(joining.Take(kBegin)), (Stamps{5, 5}));
+  EXPECT_EQ(StampsOf(joining.Take(kFirstTaken)), (Stamps{5, 5}));
   EXPECT_EQ(joining.dropped(), 1u);
 }
 
