@@ -21,8 +21,6 @@ class FibreForces {
   /// `rest_m` [3n]; may differ from where the fibres were laid: they are material lines.
   FibreForces(const std::vector<EmbeddedFibre>& fibres, const Eigen::VectorXd& rest_m);
 
-  bool Empty() const { return points_.empty(); }
-
   /// Adds dEnergy/dx [3n], N.
   void AddForces(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N) const;
   double Energy(const Eigen::VectorXd& x_m) const;
