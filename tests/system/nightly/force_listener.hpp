@@ -17,7 +17,7 @@
 
 namespace palpate::system_test {
 
-inline constexpr std::chrono::seconds kPatience{40};
+inline constexpr std::chrono::seconds kForcesPatience{40};
 
 /// A force of an estimate, or of the truth.
 struct Push {
@@ -104,7 +104,7 @@ class ForceListener {
 
   template <typename Condition>
   bool WaitFor(const Condition& condition) {
-    return node_.loop.DispatchUntil(condition, dds::WaitSet::Clock::now() + kPatience);
+    return node_.loop.DispatchUntil(condition, dds::WaitSet::Clock::now() + kForcesPatience);
   }
 
  private:

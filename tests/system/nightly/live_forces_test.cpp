@@ -109,7 +109,7 @@ TEST_F(LiveForces, AreFoundAndWhatStopsIsSaid) {
 
   for (auto* process : {&estimator_, &perception_, &bench_->capture, &bench_->camera}) {
     (*process)->Signal(SIGTERM);
-    EXPECT_EQ((*process)->Wait(kPatience), 0) << (*process)->Output();
+    EXPECT_EQ((*process)->Wait(kForcesPatience), 0) << (*process)->Output();
   }
 }
 

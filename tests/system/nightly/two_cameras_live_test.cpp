@@ -127,7 +127,7 @@ TEST_F(TwoCameraProcesses, FindWhatOnlyTheSecondSeesAndGoOnWithoutIt) {
   }
   for (auto* process : {&estimator_, &perception_, &capture_, &bench_->capture, &bench_->camera}) {
     (*process)->Signal(SIGTERM);
-    EXPECT_EQ((*process)->Wait(kPatience), 0) << (*process)->Output();
+    EXPECT_EQ((*process)->Wait(kForcesPatience), 0) << (*process)->Output();
   }
 }
 
