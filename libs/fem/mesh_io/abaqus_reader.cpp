@@ -64,6 +64,7 @@ class AbaqusReader {
     FinishElement();
     if (keywords_ == 0) Fail("is no Abaqus input file: it has no keyword (*NODE, *ELEMENT)");
     FinishSets();
+    FinishNodeSets();
   }
 
  private:
@@ -272,12 +273,15 @@ class AbaqusReader {
     const std::string name = keyword.Get("NSET");
     if (!builder_->KeepsNodeGroups() || name.empty()) return;
     if (in_assembly_ && !keyword.parameters.contains("INSTANCE")) return;
-    node_set_ = builder_->NodeGroupNamed(name, 0);
+    const auto known = node_set_of_name_.try_emplace(InUpperCase(name), node_sets_.size());
+    if (known.second) node_sets_.push_back({.name = name, .nodes = {}, .others = {}});
+    node_set_ = known.first->second;
     generate_ = keyword.parameters.contains("GENERATE");
     take_ = &AbaqusReader::TakeNodeSet;
   }
 
-  /// Numbers of nodes, or with GENERATE first, last and step. Names of other sets are passed over.
+  /// Numbers of nodes, names of other sets, which may follow, or with GENERATE first, last and
+  /// step.
   void TakeNodeSet() {
     const auto parts = Split(line_);
     if (generate_) {
@@ -287,8 +291,12 @@ class AbaqusReader {
       return;
     }
     for (const std::string_view part : parts) {
-      if (part.empty() || std::isdigit(static_cast<unsigned char>(part.front())) == 0) continue;
-      AddToNodeSet(Integer(part, "a node"));
+      if (part.empty()) continue;
+      if (std::isdigit(static_cast<unsigned char>(part.front())) == 0) {
+        node_sets_[node_set_].others.push_back(InUpperCase(part));
+      } else {
+        AddToNodeSet(Integer(part, "a node"));
+      }
     }
   }
 
@@ -307,8 +315,7 @@ class AbaqusReader {
   /// Numbers of nodes that are not there are passed over: a deck may name those of another part.
   void AddToNodeSet(int64_t number) {
     const auto node = node_of_number_.find(number);
-    if (node == node_of_number_.end()) return;
-    builder_->AddToNodeGroup(node_set_, std::span(&node->second, 1));
+    if (node != node_of_number_.end()) node_sets_[node_set_].nodes.push_back(node->second);
   }
 
   /// Names of sets are equal in any case. Returns `name` as the first set of that name has it.
@@ -375,17 +382,43 @@ class AbaqusReader {
     if (other == names_of_sets_.end() || set == other->second) return false;
     const auto from = tets_of_set_.find(other->second);
     if (from == tets_of_set_.end()) return false;
-    std::vector<int>& own = tets_of_set_[set];
-    for (std::vector<int>* tets : {&own, &from->second}) {
-      std::sort(tets->begin(), tets->end());
-      tets->erase(std::unique(tets->begin(), tets->end()), tets->end());
+    return Unite(&tets_of_set_[set], &from->second);
+  }
+
+  /// Adds what `other` holds; whether `own` has become larger. Both are sorted.
+  template <typename Index>
+  static bool Unite(std::vector<Index>* own, std::vector<Index>* other) {
+    for (std::vector<Index>* set : {own, other}) {
+      std::sort(set->begin(), set->end());
+      set->erase(std::unique(set->begin(), set->end()), set->end());
     }
-    std::vector<int> all;
-    std::set_union(own.begin(), own.end(), from->second.begin(), from->second.end(),
-                   std::back_inserter(all));
-    const bool larger = all.size() > own.size();
-    own = std::move(all);
+    std::vector<Index> all;
+    std::set_union(own->begin(), own->end(), other->begin(), other->end(), std::back_inserter(all));
+    const bool larger = all.size() > own->size();
+    *own = std::move(all);
     return larger;
+  }
+
+  /// Whether a node set has become larger by those that it names.
+  bool GrowNodeSet(std::size_t set) {
+    bool grows = false;
+    for (const std::string& name : node_sets_[set].others) {
+      const auto other = node_set_of_name_.find(name);
+      if (other == node_set_of_name_.end() || other->second == set) continue;
+      grows = Unite(&node_sets_[set].nodes, &node_sets_[other->second].nodes) || grows;
+    }
+    return grows;
+  }
+
+  void FinishNodeSets() {
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (std::size_t set = 0; set < node_sets_.size(); ++set) grows = GrowNodeSet(set) || grows;
+    }
+    for (const NodeSet& set : node_sets_) {
+      const int group = builder_->NodeGroupNamed(set.name, 0);
+      for (const int64_t& node : set.nodes) builder_->AddToNodeGroup(group, std::span(&node, 1));
+    }
   }
 
   void FinishSets() {
@@ -418,7 +451,14 @@ class AbaqusReader {
   std::vector<int64_t> pending_;  ///< number and nodes of an element that is not complete
   int pending_line_ = 0;
   std::unordered_map<int64_t, int64_t> node_of_number_;
-  int node_set_ = -1;  ///< of *NSET
+  struct NodeSet {
+    std::string name;
+    std::vector<int64_t> nodes;
+    std::vector<std::string> others;  ///< names in upper case
+  };
+  std::vector<NodeSet> node_sets_;
+  std::map<std::string, std::size_t> node_set_of_name_;  ///< by the name in upper case
+  std::size_t node_set_ = 0;                             ///< of *NSET
   std::unordered_map<int64_t, int> tet_of_number_;
   std::map<std::string, std::string> names_of_sets_;  ///< of their names in upper case
   std::vector<Range> ranges_;

@@ -102,6 +102,7 @@ class MeditReader {
     const auto size = static_cast<size_t>(type);
     const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of tetrahedra");
     scanner_.CheckRoom(count, 2 * size, "tetrahedra");
+    if (count > 0 && type == ElementType::kTet4) RefuseTenNodes();
     for (int64_t k = 0; k < count; ++k) {
       for (size_t n = 0; n < size; ++n) {
         nodes[n] = scanner_.TextInteger(1, builder_->NodeCount(), "a vertex of a tetrahedron") - 1;
@@ -111,6 +112,24 @@ class MeditReader {
       if (reference != 0) {
         builder_->AddToGroup(builder_->GroupNamed(std::to_string(reference)), tet);
       }
+    }
+  }
+
+  /// Gmsh writes tetrahedra of ten nodes under the keyword of four.
+  void RefuseTenNodes() const {
+    const std::string_view rest = scanner_.Peek();
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    int numbers = 0;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const auto is_space = [&](std::size_t i) {
+        return std::isspace(static_cast<unsigned char>(line[i])) != 0;
+      };
+      numbers += !is_space(k) && (k == 0 || is_space(k - 1)) ? 1 : 0;
+    }
+    if (numbers == 10 + 1) {
+      scanner_.Fail(
+          "ten nodes and a reference under 'Tetrahedra', which has four: save the mesh as .msh or "
+          ".vtu, or with linear elements");
     }
   }
 

@@ -253,6 +253,16 @@ TEST(MeshFormats, MeditGivesTetrahedraAndTheirReferences) {
               HasSubstr("only 3-D"));
 }
 
+/// As Gmsh 4.8 writes a mesh of second order.
+TEST(MeshFormats, MeditWithTenNodesUnderTheKeywordOfFourIsRefused) {
+  const std::string text =
+      "MeshVersionFormatted 2\nDimension\n3\nVertices\n10\n"
+      "0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n.5 0 0 1\n.5 .5 0 1\n0 .5 0 1\n0 0 .5 1\n"
+      "0 .5 .5 1\n.5 0 .5 1\nTetrahedra\n1\n1 2 3 4 5 6 7 8 9 10 1\nEnd\n";
+  EXPECT_THAT(RefusalOf({"m.mesh", text}),
+              AllOf(HasSubstr("m.mesh:"), HasSubstr("save the mesh as .msh or .vtu")));
+}
+
 TEST(MeshFormats, MeditSectionsComeInAnyOrder) {
   const std::string text = kMedit;
   const size_t vertices = text.find("Vertices");

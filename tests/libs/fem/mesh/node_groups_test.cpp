@@ -108,6 +108,24 @@ TEST(NodeGroups, OfAbaqusAreItsNodeSets) {
   EXPECT_EQ(groups[1].elements.size(), 2U);
 }
 
+TEST(NodeGroups, OfAbaqusHoldTheSetsThatTheyName) {
+  const std::string text = std::string(kAbaqusWithPoints) +
+                           "*NSET, NSET=clamp\nleft, RIGHT\n*NSET, NSET=all\nCLAMP, 3, all\n"
+                           "*NSET, NSET=LEFT\n1\n*NSET, NSET=right\n2, 1\n";
+  const auto groups = GroupsOf("tet.inp", text);
+  const auto nodes_of = [&](const std::string& name) {
+    std::vector<int> nodes;
+    for (const NodeGroup& group : groups) {
+      if (group.name != name) continue;
+      for (const std::vector<int>& element : group.elements) nodes.push_back(element.at(0));
+    }
+    return nodes;
+  };
+  EXPECT_THAT(nodes_of("clamp"), ElementsAre(0, 1));
+  EXPECT_THAT(nodes_of("all"), ElementsAre(0, 1, 2));
+  EXPECT_THAT(nodes_of("LEFT"), ElementsAre(0));
+}
+
 TEST(NodeGroups, DoNotChangeTheMesh) {
   const test_support::TestFolder folder;
   const auto file = folder.Write("tet.msh", kGmsh41);
