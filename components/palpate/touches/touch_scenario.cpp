@@ -98,10 +98,7 @@ std::string TouchScenario(const robot::RobotBody& body, const TouchPlan& plan) {
       plan.driven ? fmt::format(", {:.3f} N under actuation", plan.driven->force_N) : "");
   text += "name: touches\nbody: {refine: 0}\n";
   const double rate_hz = body.mesh.NodeCount() <= kQuickNodes ? kQuickRate_hz : kSlowRate_hz;
-  // One step for each image: a step more would cost as much again.
-  constexpr double kStepsPerImage = 1.02;
-  text += fmt::format("motion: {{mode: quasi_static, time_step_s: {:.3f}}}\n",
-                      kStepsPerImage / rate_hz);
+  text += "motion: {mode: quasi_static, time_step_s: 0.034}\n";
   text += "clutter: 0\ntools:\n";
   const auto ball = [&](const char* name, const char* color) {
     text += fmt::format(

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <regex>
+#include <string>
 #include <thread>
 
 #include "libs/app/child_process.hpp"
@@ -61,6 +63,32 @@ TEST(Demo, AScenarioWithoutACameraIsRefusedBeforeAnythingStarts) {
   EXPECT_EQ(RunDemo(folder, {"--scenario", scenario.string()}), 2);
   EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("has no camera"));
   EXPECT_FALSE(std::filesystem::exists(folder / "demo/capture.log"));
+}
+
+/// Mean error and frames of a line of the result, "  one, in view  4.2 % mean error over 17
+/// frames".
+struct DemoScore {
+  double error_percent = -1.0;
+  int frames = 0;
+};
+DemoScore ScoreIn(const std::string& text, const std::string& line) {
+  const std::regex pattern(line + R"( +([\d.]+) % mean error over (\d+) frames)");
+  std::smatch found;
+  if (!std::regex_search(text, found, pattern)) return {};
+  return {std::stod(found[1]), std::stoi(found[2])};
+}
+
+/// A robot of one chamber and a body finer than four_leg's, through all processes.
+TEST(PneumaticDemo, FindsForcesOnTheFingerAtRestAndUnderPressure) {
+  const TestFolder folder;
+  EXPECT_EQ(RunDemo(folder, {"--robot", "pneumatic_finger", "--no-view"}), 0);
+  const std::string text = ReadFile(folder / "log");
+  const DemoScore seen = ScoreIn(text, "one, in view");
+  EXPECT_GE(seen.frames, 5) << text;
+  EXPECT_LT(seen.error_percent, 30.0) << text;
+  EXPECT_THAT(ReadFile(folder / "demo/scenario.yaml"), testing::HasSubstr("bend.pressure_Pa"));
+  EXPECT_THAT(ReadFile(folder / "demo/forces.svg"), testing::HasSubstr("<polyline"));
+  EXPECT_GT(std::filesystem::file_size(folder / "demo/recording.mcap"), 20000U);
 }
 
 // Of the programs of this domain, those that run.

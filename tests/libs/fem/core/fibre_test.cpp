@@ -52,8 +52,8 @@ double Length_m(const Eigen::Matrix3Xd& path_m) {
       .sum();
 }
 
-Eigen::VectorXd Moved(const Eigen::Matrix3d& A, const Eigen::VectorXd& x_m,
-                      const Eigen::Vector3d& by_m = Eigen::Vector3d::Zero()) {
+Eigen::VectorXd MovedBy(const Eigen::Matrix3d& A, const Eigen::VectorXd& x_m,
+                        const Eigen::Vector3d& by_m = Eigen::Vector3d::Zero()) {
   return ((A * x_m.reshaped(3, x_m.size() / 3)).colwise() + by_m).reshaped();
 }
 
@@ -71,9 +71,9 @@ class FibresOf : public testing::TestWithParam<ElementType> {
   Eigen::VectorXd rest_m_ = mesh_.nodes_m.reshaped();
   FibreForces fibres_{{fibre_}, rest_m_};
   std::mt19937 engine_{5};
-  Eigen::VectorXd x_m_ = Moved(Eigen::Matrix3d::Identity() +
-                                   0.2 * RandomVector(9, 1.0, &engine_).reshaped(3, 3).matrix(),
-                               rest_m_) +
+  Eigen::VectorXd x_m_ = MovedBy(Eigen::Matrix3d::Identity() +
+                                     0.2 * RandomVector(9, 1.0, &engine_).reshaped(3, 3).matrix(),
+                                 rest_m_) +
                          RandomVector(rest_m_.size(), 3e-4, &engine_);
 };
 
@@ -91,7 +91,8 @@ TEST_P(FibresOf, ItsPiecesAddUpToItsLengthAndPointAlongIt) {
 
 TEST_P(FibresOf, AtRestAndTurnedThereIsNoForce) {
   EXPECT_LE(Forces(rest_m_).cwiseAbs().maxCoeff(), 1e-12);
-  const Eigen::VectorXd turned_m = Moved(Rotation(2.1, {1.0, 2.0, -3.0}), rest_m_, {0.1, -0.2, 0});
+  const Eigen::VectorXd turned_m =
+      MovedBy(Rotation(2.1, {1.0, 2.0, -3.0}), rest_m_, {0.1, -0.2, 0});
   EXPECT_LE(Forces(turned_m).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_LE(fibres_.Energy(turned_m), 1e-24);
 }
@@ -107,7 +108,7 @@ TEST_P(FibresOf, ForcesHaveNoResultantAndNoMomentAndTurnWithTheBody) {
   EXPECT_LE(sum_N.norm(), 1e-12 * force_N.norm());
   EXPECT_LE(moment_Nm.norm(), 1e-12 * force_N.norm() * x_m_.cwiseAbs().maxCoeff());
   const Eigen::Matrix3d R = Rotation(2.1, {3.0, 1.0, -2.0});
-  EXPECT_LE((Forces(Moved(R, x_m_, {0.5, 0.0, -0.2})) - Moved(R, force_N)).norm(),
+  EXPECT_LE((Forces(MovedBy(R, x_m_, {0.5, 0.0, -0.2})) - MovedBy(R, force_N)).norm(),
             1e-12 * force_N.norm());
 }
 
@@ -151,6 +152,27 @@ TEST_P(FibresOf, TheTangentOfTheBodyIsTheDerivativeOfItsForces) {
     K.AddExpanded(K.Times(reduced), 1.0, product);
     EXPECT_LE((product - expected).norm(), 1e-8 * expected.norm());
   }
+}
+
+/// What error bounds of forces take for dF/dlnE: the forces of the cells, without the fibres.
+TEST_P(FibresOf, OnlyTheForcesOfCellsGrowWithTheModulus) {
+  constexpr double kModulus_Pa = 1e3, kStep = 1e-3;
+  const Material material{MaterialModel::kStableNeoHookean, Volumetric::kPointwise, kModulus_Pa,
+                          0.3};
+  ElasticBody body(mesh_, {material}, std::vector<int>(static_cast<size_t>(mesh_.CellCount())),
+                   {fibre_});
+  const auto forces = [&](double factor) {
+    body.SetYoungsModulus(0, factor * kModulus_Pa);
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m_.size());
+    body.AddForces(x_m_, force_N);
+    return force_N;
+  };
+  const Eigen::VectorXd by_modulus_N = (forces(1.0 + kStep) - forces(1.0 - kStep)) / (2.0 * kStep);
+  body.SetYoungsModulus(0, kModulus_Pa);
+  Eigen::VectorXd of_cells_N = Eigen::VectorXd::Zero(x_m_.size());
+  body.AddForcesOfCells(x_m_, of_cells_N);
+  EXPECT_LE((by_modulus_N - of_cells_N).norm(), 1e-9 * of_cells_N.norm());
+  EXPECT_GT(Forces(x_m_).norm(), 0.1 * of_cells_N.norm());
 }
 
 TEST_P(FibresOf, DerivativesAlongPositionsAndRestShapeAreThoseOfDifferences) {
@@ -234,7 +256,7 @@ TEST_P(BarWithFibre, StretchesAsTheMaterialDoes) {
   F << 1.2, 0.1, 0.0, -0.05, 0.9, 0.2, 0.0, 0.1, 1.1;
   const Eigen::Vector3d along_m = path_m.col(1) - path_m.col(0);
   const double strain = (F * along_m).norm() / along_m.norm() - 1.0;
-  const Eigen::VectorXd x_m = Moved(F, mesh.nodes_m.reshaped());
+  const Eigen::VectorXd x_m = MovedBy(F, mesh.nodes_m.reshaped());
   EXPECT_NEAR(fibres.Energy(x_m), 0.5 * kStiffness_N * along_m.norm() * strain * strain, 1e-14);
   EXPECT_NEAR(fibres.LargestStrains(x_m)[0], strain, 1e-12);
 }

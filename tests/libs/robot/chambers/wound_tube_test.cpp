@@ -41,7 +41,7 @@ double ExactAtWall_m(double hoop_N_m) {
   M.row(2) << u_c, -u_c;
   M.row(3) << -stress(c) - hoop_N_m / (c * c) * u_c, stress(c);
   const Eigen::Vector4d AB =
-      M.partialPivLu().solve(Eigen::Vector4d(-kTubePressure_Pa, 0.0, 0.0, 0.0));
+      Eigen::PartialPivLU<Eigen::Matrix4d>(M).solve(Eigen::Vector4d(-kTubePressure_Pa, 0, 0, 0));
   return AB[0] * a + AB[1] / a;
 }
 
