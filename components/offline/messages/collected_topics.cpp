@@ -108,30 +108,31 @@ bool ReadInfo(CdrReader reader, CollectedInfo* info) {
   return reader.ok();
 }
 
-bool ReadMarkers(CdrReader reader, CollectedMarkers* set) {
+/// `list`: at the markers. What stands between is of later versions of the message only.
+bool ReadMarkers(CdrReader reader, CdrReader list, CollectedMarkers* set) {
   const MessageHeader header = ReadHeader(&reader);
   set->time.stamp_ns = header.stamp_ns;
   set->frame_id = header.frame_id;
   reader.Bits(8);  // counter
   set->recording = reader.String();
   set->reference_shape = static_cast<int>(reader.Bits(1));
-  const std::uint32_t count = reader.Length();
-  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+  const std::uint32_t count = list.Length();
+  for (std::uint32_t i = 0; i < count && list.ok(); ++i) {
     CollectedMarker marker;
-    marker.name = reader.String();
-    const Eigen::Vector3d position_m = Vector(&reader);
-    marker.sigma_m = Vector(&reader);
+    marker.name = list.String();
+    const Eigen::Vector3d position_m = Vector(&list);
+    marker.sigma_m = Vector(&list);
     std::array<double, 9> covariance_m2{};
-    for (double& value : covariance_m2) value = Real(&reader);
+    for (double& value : covariance_m2) value = Real(&list);
     for (const int axis : {0, 1, 2}) {
       const double variance_m2 = covariance_m2[static_cast<std::size_t>(4 * axis)];
       if (variance_m2 > 0.0) marker.sigma_m[axis] = std::sqrt(variance_m2);
     }
-    const bool valid = reader.Bits(1) != 0 && position_m.allFinite();
+    const bool valid = list.Bits(1) != 0 && position_m.allFinite();
     if (valid) marker.position_m = position_m;
     set->markers.push_back(std::move(marker));
   }
-  return reader.ok();
+  return reader.ok() && list.ok();
 }
 
 bool ReadJoints(CdrReader reader, CollectedJoints* set) {
@@ -285,6 +286,15 @@ class Collector {
     topics_.points.push_back({{header.stamp_ns, message.log_time_ns, 0, 0}, header.frame_id});
   }
 
+  void TakeMarkers(const recording::Message& message, const MessageType& type) {
+    CollectedMarkers set;
+    if (!ReadMarkers(type.At("header", message.data), type.At("markers", message.data), &set)) {
+      return LeaveOut(message, "does not fit the definition of its type");
+    }
+    set.time.log_ns = message.log_time_ns;
+    topics_.markers.push_back(std::move(set));
+  }
+
   void TakeTransforms(const recording::Message& message, const MessageType& type) {
     CdrReader reader = type.At("transforms", message.data);
     const std::uint32_t count = reader.Length();
@@ -338,9 +348,7 @@ class Collector {
     if (roles_.Is(kDepthTopic, id)) TakeImage(message, *type, true, &topics_.depth);
     if (roles_.Is(kColorTopic, id)) TakeImage(message, *type, false, &topics_.color);
     if (roles_.Is(kPointsTopic, id)) TakePoints(message, *type);
-    if (roles_.Is(kMarkersTopic, id)) {
-      Keep(message, *type, "header", ReadMarkers, &topics_.markers);
-    }
+    if (roles_.Is(kMarkersTopic, id)) TakeMarkers(message, *type);
     if (roles_.Is(kJointStatesTopic, id)) {
       Keep(message, *type, "header", ReadJoints, &topics_.joints);
     }

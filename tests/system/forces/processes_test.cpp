@@ -86,7 +86,7 @@ Outcomes ReadForcesCsv(const std::filesystem::path& file) {
     std::vector<std::string> fields;
     std::istringstream row(line);
     for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
-    EXPECT_EQ(std::ranges::count(line, ','), 17) << line;
+    EXPECT_EQ(std::ranges::count(line, ','), 23) << line;
     Outcome& outcome = outcomes[{fields[0], std::llround(std::stod(fields[1]) * 1e3)}];
     const bool has_contact = !fields[2].empty();
     outcome.status = has_contact ? "ok" : fields[11];

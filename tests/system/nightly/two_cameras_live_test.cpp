@@ -78,7 +78,9 @@ class TwoCameraProcesses : public testing::Test {
     estimator_ = Start("palpate-force-estimation",
                        {robot_, "--camera-pose", front, "--set", cameras, "--set",
                         "shape.untouched_frames=15", "--set", "silence_s=2"});
-    perception_ = Start("palpate-perception", {"--camera-pose", front, "--set", cameras});
+    // On a slow machine images of one time come far apart.
+    perception_ = Start("palpate-perception",
+                        {"--camera-pose", front, "--set", cameras, "--set", "camera_wait_s=1"});
     capture_ = Start("palpate-capture", {"--set", "camera_name=back", "--set",
                                          std::string("genicam.camera_id=") + kBackAddress});
     camera_ = Start("palpate-virtual-camera",

@@ -97,7 +97,7 @@ std::vector<Outcome> ReadForcesCsv(const std::filesystem::path& file) {
     std::vector<std::string> fields;
     std::istringstream row(line);
     for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
-    EXPECT_EQ(std::ranges::count(line, ','), 17) << line;
+    EXPECT_EQ(std::ranges::count(line, ','), 23) << line;
     const std::int64_t stamp_ns = std::llround(std::stod(fields[1]) * 1e9);
     if (outcomes.empty() || outcomes.back().stamp_ns != stamp_ns) {
       outcomes.push_back({stamp_ns, fields[2].empty() ? fields[11] : "ok", {}});
