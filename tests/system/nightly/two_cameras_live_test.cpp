@@ -48,9 +48,9 @@ const std::string kBallBehind = R"(recordings:
     tools:
       - tool: ball
         path:
-          - {t_s: 6, position_m: [-0.0560, 0.0560, 0.103]}
-          - {t_s: 7, position_m: [-0.0285, 0.0285, 0.103]}
-          - {t_s: 8, position_m: [-0.0220, 0.0220, 0.103]}
+          - {t_s: 20, position_m: [-0.0560, 0.0560, 0.103]}
+          - {t_s: 21, position_m: [-0.0285, 0.0285, 0.103]}
+          - {t_s: 22, position_m: [-0.0220, 0.0220, 0.103]}
           - {t_s: 200, position_m: [-0.0220, 0.0220, 0.103]}
 )";
 
