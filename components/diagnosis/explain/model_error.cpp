@@ -200,6 +200,20 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
 
 }  // namespace
 
+double ExplainedShare(const HypothesisSet& hypotheses, const Selection& selection, int cause) {
+  const Fit& best = selection.best;
+  std::vector<int> others = best.faults;
+  std::erase(others, cause);
+  const double with = best.posterior.misfit;
+  const double null_model = selection.null_model.posterior.misfit;
+  // The only one is far from none: the nominal robot's own fit knows better than a linear model.
+  const double without =
+      others.empty() ? null_model : hypotheses.InferWithin(best.model.All(), others).misfit;
+  const double noise = std::min(with, static_cast<double>(best.model.y.size()));
+  if (!(null_model > noise)) return 0.0;
+  return std::clamp((without - with) / (null_model - noise), 0.0, 1.0);
+}
+
 void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBody& body,
                         const HypothesisSet& hypotheses, const Fit& as_built,
                         const Selection& selection, DiagnosisResult* result) {

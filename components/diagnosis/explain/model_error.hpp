@@ -16,4 +16,9 @@ void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBo
                         const HypothesisSet& hypotheses, const Fit& as_built,
                         const Selection& selection, DiagnosisResult* result);
 
+/// Share of the null model's misfit beyond the noise that would come back without one of the named
+/// causes, the others and the tolerances fitted again. The misfit counts residuals and tolerances,
+/// each in its standard deviations: what tolerances take up far beyond their size is not explained.
+double ExplainedShare(const HypothesisSet& hypotheses, const Selection& selection, int cause);
+
 }  // namespace palpate::diagnosis

@@ -11,7 +11,6 @@
 
 #include "components/diagnosis/explain/file_terms.hpp"
 #include "components/diagnosis/explain/model_error.hpp"
-#include "components/diagnosis/inference/backward_elimination.hpp"
 #include "components/diagnosis/inference/confusability_of_faults.hpp"
 #include "components/diagnosis/inference/model_averaging.hpp"
 

@@ -11,20 +11,6 @@
 
 namespace palpate::diagnosis {
 
-double ExplainedShare(const HypothesisSet& hypotheses, const Selection& selection, int cause) {
-  const Fit& best = selection.best;
-  std::vector<int> others = best.faults;
-  std::erase(others, cause);
-  const double with = best.posterior.misfit;
-  const double null_model = selection.null_model.posterior.misfit;
-  // The only one is far from none: the nominal robot's own fit knows better than a linear model.
-  const double without =
-      others.empty() ? null_model : hypotheses.InferWithin(best.model.All(), others).misfit;
-  const double noise = std::min(with, static_cast<double>(best.model.y.size()));
-  if (!(null_model > noise)) return 0.0;
-  return std::clamp((without - with) / (null_model - noise), 0.0, 1.0);
-}
-
 namespace {
 
 /// A named fault for another one.
@@ -100,28 +86,7 @@ void ExchangeOne(const Fitter& fitter, Selection* selection) {
   }
 }
 
-/// Whether a fault explains what is worth a cause: of all that the null model leaves, or what
-/// left-out recordings tell. Beside a fault that bends the robot far the rest is near the noise, so
-/// that evidence alone would name what that fault's own small errors look like.
-bool Matters(const Fitter& fitter, const Selection& selection, const Choice& choice) {
-  return choice.cross_validation.clear ||
-         ExplainedShare(fitter.hypotheses(), selection, choice.fault) >=
-             kSelectionTuning.least_explained;
-}
-
-/// The hypothesis without a named fault; false: it cannot be simulated.
-bool Drop(const Fitter& fitter, std::size_t k, Selection* selection) {
-  std::vector<int> others = selection->best.faults;
-  std::erase(others, selection->named[k].fault);
-  Fit without = fitter.Complete(fitter.Refine(others, selection->best));
-  if (!without.status.ok()) return false;
-  selection->best = std::move(without);
-  selection->named.erase(selection->named.begin() + ToIndex(k));
-  return true;
-}
-
-/// What each of the named adds to all others; one that adds nothing clear, or next to nothing, is
-/// dropped.
+/// What each of the named adds to all others; one that adds nothing clear is dropped.
 void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* selection) {
   for (std::size_t k = 0; k < selection->named.size();) {
     Choice& choice = selection->named[k];
@@ -130,15 +95,20 @@ void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* sele
     std::erase(others, choice.fault);
     choice.ln_bayes_factor =
         best.posterior.ln_evidence - fitter.LinearPosterior(best, others).ln_evidence;
-    if (choice.ln_bayes_factor < clear_evidence && Drop(fitter, k, selection)) continue;
+    if (choice.ln_bayes_factor < clear_evidence) {
+      Fit without = fitter.Complete(fitter.Refine(others, best));
+      if (without.status.ok()) {
+        selection->best = std::move(without);
+        selection->named.erase(selection->named.begin() + ToIndex(k));
+        continue;
+      }
+    }
     const CrossValidation before = LeaveOneOut(fitter.hypotheses(), best.model, others);
     const CrossValidation after = LeaveOneOut(fitter.hypotheses(), best.model, best.faults);
     choice.cross_validation = Compare(before, after);
     for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
       choice.ln_gain_of_recording[r] = after.ln_predicted[r] - before.ln_predicted[r];
     }
-    const bool is_beside = selection->named.size() > 1;
-    if (is_beside && !Matters(fitter, *selection, choice) && Drop(fitter, k, selection)) continue;
     ++k;
   }
 }
