@@ -172,10 +172,12 @@ TEST(ForcesTable, LeavesAForceEmptyThatTheMarkersDoNotDetermine) {
   none.t_s = 2.0;
   none.status = Status(StatusCode::kNoContact, "");
   table.Add("r", none);
+  EXPECT_THAT(
+      table.text(),
+      testing::HasSubstr("\n\"a,b\",0.5,tip,0,0,0,0,0,-1.5,0.1,0,ok,0,0,0,0,0,0,0,0,0,0,0,0\n"));
   EXPECT_THAT(table.text(),
-              testing::HasSubstr("\n\"a,b\",0.5,tip,0,0,0,0,0,-1.5,0.1,0,ok,0,0,0,0,0,0\n"));
-  EXPECT_THAT(table.text(), testing::HasSubstr("\nr,1,tip,0,0,0,,,,,0,unobservable,,,,,,\n"));
-  EXPECT_THAT(table.text(), testing::EndsWith("\nr,2,,,,,,,,,,no_contact,,,,,,\n"));
+              testing::HasSubstr("\nr,1,tip,0,0,0,,,,,0,unobservable,,,,,,,0,0,0,0,0,0\n"));
+  EXPECT_THAT(table.text(), testing::EndsWith("\nr,2,,,,,,,,,,no_contact,,,,,,,,,,,,\n"));
   EXPECT_THROW(table.Write("/no/such/folder/forces.csv"), RunError);
 }
 

@@ -69,7 +69,7 @@ class Manuals : public testing::Test {
 
   /// The options that --help lists.
   std::vector<std::string> OptionsOf(const std::string& command) const {
-    static const std::regex kOption("^  (--[a-z0-9-]+).*");
+    static const std::regex kOption("^  (--[A-Za-z0-9-]+).*");
     std::vector<std::string> options;
     for (const std::string& line : LinesOf(Bash(kPrograms.string() + "/" + command + " --help"))) {
       std::smatch match;
@@ -97,7 +97,7 @@ class Manuals : public testing::Test {
     EXPECT_EQ(completed, options) << command;
     std::vector<std::string> of_page;
     for (const std::string& line : LinesOf(ReadFile(Page(page)))) {
-      static const std::regex kOption(R"(^\\fB(\\-\\-[a-z0-9\\-]+)\\fR.*)");
+      static const std::regex kOption(R"(^\\fB(\\-\\-[A-Za-z0-9\\-]+)\\fR.*)");
       std::smatch match;
       if (!std::regex_match(line, match, kOption)) continue;
       of_page.push_back(std::regex_replace(match[1].str(), std::regex(R"(\\-)"), "-"));

@@ -360,6 +360,7 @@ TEST_F(MakeExperimentTest, PlayedRecordingsKeepTheirNamesAndTimes) {
     for (int i = 0; i < 3; ++i, log_ns += kStep_ns) {
       Cdr markers;
       markers.Stamp(i * kStep_ns, "robot").Put(std::uint64_t(i)).Text(name).Put(std::uint8_t{1});
+      markers.Array<double>(std::vector<double>(5));  // an exact pose
       markers.Put(std::uint32_t{1}).Text("m").Array<double>({0.1, 0.2, 0.1 * i, 1e-3, 1e-3, 1e-3});
       markers.Array<double>(std::vector<double>(9)).Put(std::uint8_t{1});
       messages_.Add("/perception/markers", "palpate_msgs/msg/MarkerArray3", log_ns, markers);
