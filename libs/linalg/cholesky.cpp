@@ -6,10 +6,14 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/linalg/lapack.hpp"
 
 namespace palpate::linalg {
 
 namespace {
+
+/// From this size on LAPACK is faster than Eigen, which is compiled for any processor.
+constexpr Eigen::Index kLarge = 64;
 
 void CheckSquare(const Eigen::MatrixXd& A) {
   PALPATE_CHECK(A.rows() == A.cols(), A.rows(), A.cols());
@@ -40,33 +44,54 @@ void SolveByLdlt(const Eigen::MatrixXd& A, Columns* columns) {
 
 }  // namespace
 
-Cholesky::Cholesky(const Eigen::MatrixXd& A) {
+Cholesky::Cholesky(const Eigen::MatrixXd& A) : L_(A) {
   CheckSquare(A);
-  factor_.compute(A);
-  ok_ = HasFactor(factor_);
+  if (L_.rows() < kLarge) {
+    ok_ = HasFactor(Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(L_));
+    return;
+  }
+  const auto n = static_cast<int>(L_.rows());
+  int info = 0;
+  dpotrf_("L", &n, L_.data(), &n, &info);
+  ok_ = info == 0 && L_.diagonal().allFinite();
 }
 
 Eigen::VectorXd Cholesky::Solve(Eigen::VectorXd b) const {
-  CheckRows(factor_.matrixLLT(), b.rows());
-  factor_.solveInPlace(b);
+  CheckRows(L_, b.rows());
+  L_.triangularView<Eigen::Lower>().solveInPlace(b);
+  L_.triangularView<Eigen::Lower>().transpose().solveInPlace(b);
   return b;
 }
 
 Eigen::MatrixXd Cholesky::Solve(Eigen::MatrixXd B) const {
-  CheckRows(factor_.matrixLLT(), B.rows());
-  factor_.solveInPlace(B);
+  CheckRows(L_, B.rows());
+  if (L_.rows() < kLarge) {
+    L_.triangularView<Eigen::Lower>().solveInPlace(B);
+    L_.triangularView<Eigen::Lower>().transpose().solveInPlace(B);
+    return B;
+  }
+  const auto n = static_cast<int>(L_.rows());
+  const auto columns = static_cast<int>(B.cols());
+  int info = 0;
+  dpotrs_("L", &n, &columns, L_.data(), &n, B.data(), &n, &info);
   return B;
 }
 
 Eigen::MatrixXd Cholesky::Inverse() const {
-  return Solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(factor_.rows(), factor_.cols())));
+  if (L_.rows() < kLarge) {
+    return Solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(L_.rows(), L_.cols())));
+  }
+  Eigen::MatrixXd inverse = L_;
+  const auto n = static_cast<int>(L_.rows());
+  int info = 0;
+  dpotri_("L", &n, inverse.data(), &n, &info);
+  inverse.triangularView<Eigen::StrictlyUpper>() = inverse.transpose();
+  return inverse;
 }
 
-Eigen::MatrixXd Cholesky::Lower() const { return factor_.matrixL(); }
+Eigen::MatrixXd Cholesky::Lower() const { return L_.triangularView<Eigen::Lower>(); }
 
-double Cholesky::LnDeterminant() const {
-  return 2.0 * factor_.matrixLLT().diagonal().array().log().sum();
-}
+double Cholesky::LnDeterminant() const { return 2.0 * L_.diagonal().array().log().sum(); }
 
 bool InverseSpd(const SmallMatrix& A, SmallMatrix* inverse) {
   PALPATE_CHECK(A.rows() == A.cols(), A.rows(), A.cols());

@@ -9,7 +9,8 @@
 
 namespace palpate::linalg {
 
-/// A = L L' of a symmetric positive definite matrix (Eigen::LLT). Only the lower triangle is read.
+/// A = L L' of a symmetric positive definite matrix (Eigen::LLT; LAPACK's where it is large). Only
+/// the lower triangle is read.
 class Cholesky {
  public:
   explicit Cholesky(const Eigen::MatrixXd& A);  ///< [n x n], n may be 0
@@ -25,7 +26,7 @@ class Cholesky {
   double LnDeterminant() const;                    ///< ln det A
 
  private:
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd L_;  ///< lower triangle
   bool ok_;
 };
 

@@ -79,7 +79,12 @@ class SampleInParts {
   bool SolveShapes(SimulatedSample* simulated) {
     SimulatedSample middle = Resolved(simulated->middle);
     if (!IsHeldAs(simulated->middle, middle)) return false;
-    AddSlides(middle.middle.part, middle.middle, &middle.slides);
+    // Without friction only which way eyelets slide matters, and that stays.
+    if (!simulated->slides.empty() && solver_.FrictionOfEyelets().isZero(0.0)) {
+      middle.slides = simulated->slides;
+    } else {
+      AddSlides(middle.middle.part, middle.middle, &middle.slides);
+    }
     Eigen::VectorXd mean_m = simulated->seen_m;
     const auto move = [&](const HeldShape& from, const HeldShape& to) {
       mean_m += from.share * (to.seen_m - from.seen_m);

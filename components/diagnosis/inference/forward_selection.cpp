@@ -9,13 +9,12 @@
 #include <map>
 #include <vector>
 
+#include "components/diagnosis/inference/canonical_correlation.hpp"
 #include "components/diagnosis/inference/linear_comparison.hpp"
 #include "components/diagnosis/inference/model_averaging.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/linalg/cholesky.hpp"
-#include "libs/linalg/qr.hpp"
-#include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
 
@@ -89,31 +88,6 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
 void SortByEvidence(std::vector<Candidate>* candidates) {
   std::sort(candidates->begin(), candidates->end(),
             [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
-}
-
-double CanonicalCorrelation(const HypothesisSet& hypotheses, const Fit& about, int a, int b) {
-  const LinearModel& model = about.model;
-  const GaussianPrior prior = hypotheses.PriorWith({}, about.posterior.scale);
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index p = 0; p < prior.sigma.size(); ++p) {
-    const bool own = (p >= hypotheses.first(a) && p < hypotheses.first(a) + hypotheses.count(a)) ||
-                     (p >= hypotheses.first(b) && p < hypotheses.first(b) + hypotheses.count(b));
-    if (prior.sigma[p] > 0.0 && !own) free.push_back(p);
-  }
-  const Eigen::VectorXd sigma = prior.sigma(free);
-  const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
-  Eigen::MatrixXd A = clutter.transpose() * clutter;
-  A.diagonal().array() += 1.0;
-  const linalg::Cholesky factor(A);
-  const auto basis = [&](int k) -> Eigen::MatrixXd {
-    Eigen::MatrixXd effect = model.J.middleCols(hypotheses.first(k), hypotheses.count(k));
-    effect -= clutter * factor.Solve(Eigen::MatrixXd(clutter.transpose() * effect));
-    return linalg::OrthonormalBasis(effect);
-  };
-  const Eigen::MatrixXd of_a = basis(a);
-  const Eigen::MatrixXd of_b = basis(b);
-  if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
-  return std::min(1.0, linalg::SingularValues(of_a.transpose() * of_b)[0]);
 }
 
 namespace {
@@ -497,11 +471,12 @@ int ForwardSelectionStep::SeenIn(std::size_t k) const {
 void ForwardSelectionStep::Explain() {
   const HypothesisSet& hypotheses = fitter_.hypotheses();
   const int first = found_ < candidates_.size() ? candidates_[found_].fault : -1;
+  const Information data = before_.model.All();
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     Candidate& candidate = candidates_[k];
     if (first >= 0 && k != found_) {
       candidate.canonical_correlation =
-          CanonicalCorrelation(hypotheses, before_, first, candidate.fault);
+          CanonicalCorrelation(hypotheses, data, before_.posterior.scale, first, candidate.fault);
     }
     if (k == found_ || !candidate.why_not.empty()) continue;
     if (k < fits_.size() && PromisesAnotherMoreThan(k)) {

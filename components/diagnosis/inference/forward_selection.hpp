@@ -60,10 +60,6 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
 /// The most probable first.
 void SortByEvidence(std::vector<Candidate>* candidates);
 
-/// The largest canonical correlation between what two faults do, what manufacturing tolerances can
-/// make up for taken out; in [0, 1].
-double CanonicalCorrelation(const HypothesisSet& hypotheses, const Fit& about, int a, int b);
-
 /// Why a fitted fault is not accepted (docs/theory/model_selection.md, Forward selection): it is
 /// within tolerances, does not differ from zero, or is not plausible. Empty: it is accepted.
 std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/core/index.hpp"
+#include "libs/linalg/gram.hpp"
 #include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
@@ -162,9 +163,7 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
     Information& information = model.of_recording.emplace_back(z.size());
     const auto J = model.J.middleRows(first, row - first);
     const auto y = model.y.segment(first, row - first);
-    // Eigen divides by the number of rows.
-    if (J.rows() > 0) information.H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
-    information.H.triangularView<Eigen::StrictlyUpper>() = information.H.transpose();
+    information.H = linalg::Gram(J);
     information.b.noalias() = J.transpose() * y;
     information.c = y.squaredNorm();
     information.rows = static_cast<int>(row - first);

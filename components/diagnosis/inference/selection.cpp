@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "components/diagnosis/inference/backward_elimination.hpp"
+#include "components/diagnosis/inference/canonical_correlation.hpp"
 #include "components/diagnosis/inference/linear_comparison.hpp"
 #include "components/diagnosis/inference/simulated_healthy.hpp"
 #include "libs/core/index.hpp"
@@ -54,10 +55,12 @@ void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
   }
   const auto count = std::ssize(selection->compared);
   selection->canonical_correlation = Eigen::MatrixXd::Identity(count, count);
+  const Fit& about = selection->null_model;
+  const Information data = about.model.All();
   for (Eigen::Index a = 0; a < count; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
       const double indistinguishable =
-          CanonicalCorrelation(hypotheses, selection->null_model, selection->compared[At(a)],
+          CanonicalCorrelation(hypotheses, data, about.posterior.scale, selection->compared[At(a)],
                                selection->compared[At(b)]);
       selection->canonical_correlation(a, b) = indistinguishable;
       selection->canonical_correlation(b, a) = indistinguishable;

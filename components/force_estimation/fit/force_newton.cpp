@@ -21,14 +21,20 @@ struct ForceNewtonTuning {
   /// fitted state itself, for more factorisations. Smaller: fewer factorisations, intervals of a
   /// state further away.
   double tangent_error_weight = 1e-3;
+  /// Limits of the static solve that follows the inputs.
+  fem::StaticSettings inputs{.max_newton_iterations = 20, .max_load_steps = 6};
   /// Limits of the static solve of a continuation step. Larger: fewer and longer steps, but a
-  /// failed one costs more before it is halved.
-  fem::StaticSettings continuation{.max_newton_iterations = 20, .max_load_steps = 6};
-  /// Halvings of a continuation step before the fit gives up.
-  int most_halvings = 8;
-  /// Rounding of the weighted residual, relative, below which a continuation step has not raised
-  /// it.
-  double residual_rounding = 1e-9;
+  /// failed one costs more before it is shortened.
+  fem::StaticSettings continuation{
+      .max_newton_iterations = 10, .max_full_steps = 8, .max_load_steps = 1};
+  /// Damping of a continuation step after the first failure, and its growth with each further one.
+  double least_damping = 1e-6;
+  double damping_growth = 30.0;
+  /// Failures in a row before the fit gives up.
+  int most_failures = 8;
+  /// Share of the weighted residual that a continuation step must take away. Smaller: more steps
+  /// where the model is unstable near the rows, for nothing.
+  double least_gain = 0.01;
 };
 constexpr ForceNewtonTuning kForceNewtonTuning;
 
@@ -60,7 +66,8 @@ ForceNewton::ForceNewton(robot::RobotModel& model, const Config& config)
     : model_(model),
       config_(config),
       compliance_(model.linearisation(), MarkerRows(model)),
-      static_solver_(model.linearisation(), kForceNewtonTuning.continuation),
+      input_solver_(model.linearisation(), kForceNewtonTuning.inputs),
+      continuation_solver_(model.linearisation(), kForceNewtonTuning.continuation),
       qp_(static_cast<int>(3 * model.body().markers.size()), model.traits()),
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())),
       external_force_N_(weight_N_),
@@ -127,7 +134,9 @@ const ForceFit& ForceNewton::Fit(const RowTargets& targets,
 
 /// Newton's method with a frozen factor where one is kept. Where it diverges, exact steps from the
 /// start: steps with the factor of another state may lead to where exact ones do not converge.
-/// Where these diverge, too, continuation steps, after each of which exact steps are tried.
+/// Where these diverge, too, the inputs are followed under the forces of the start: inputs and
+/// forces that both change far from an equilibrium lead astray. After that continuation steps, each
+/// followed by exact steps.
 Status ForceNewton::FitWithContinuation() {
   Status status = RunNewton(/*exact_only=*/false);
   if (Diverged(status) && fit_.chord_steps > 0) {
@@ -135,10 +144,18 @@ Status ForceNewton::FitWithContinuation() {
     status = RunNewton(/*exact_only=*/true);
   }
   if (Diverged(status) && !start_.balanced && last_good_.valid) start_ = last_good_;
+  if (Diverged(status)) {
+    *frame_.state = start_;
+    if (Balance(start_.lambda_f_N, &input_solver_, frame_.state).ok()) {
+      start_ = *frame_.state;
+      status = RunNewton(/*exact_only=*/true);
+    }
+  }
+  double damping = 0.0;
   while (Diverged(status) && fit_.continuation_steps < most_continuation_steps_) {
     *frame_.state = start_;
     ++fit_.continuation_steps;
-    if (Status moved = ContinueAlongEquilibria(); !moved.ok()) return moved;
+    if (Status moved = ContinueAlongEquilibria(&damping); !moved.ok()) return moved;
     start_ = *frame_.state;
     status = RunNewton(/*exact_only=*/true);
   }
@@ -217,8 +234,8 @@ Status ForceNewton::SolveInObservableDirections(const ModelState& state) {
 }
 
 /// About the last linearisation, whose state is `state`.
-Status ForceNewton::SolveQp(const ModelState& state) {
-  return qp_.Solve(compliance_, *frame_.targets, *frame_.cables, state.lambda_f_N);
+Status ForceNewton::SolveQp(const ModelState& state, double damping) {
+  return qp_.Solve(compliance_, *frame_.targets, *frame_.cables, state.lambda_f_N, damping);
 }
 
 Status ForceNewton::Try(double length, bool last) {
@@ -320,46 +337,53 @@ double ForceNewton::StepFraction(const ModelState& state) const {
   return longest_step_N_ > 0.0 && change_N > longest_step_N_ ? longest_step_N_ / change_N : 1.0;
 }
 
-/// One continuation step: the largest share of the QP's change of forces after which the model is
-/// in equilibrium and the rows' residual has not risen.
-Status ForceNewton::ContinueAlongEquilibria() {
-  const ModelState& state = *frame_.state;
+/// One continuation step: the QP's change of forces, as little damped as leads to an equilibrium in
+/// which the rows' residual has not risen. `damping`: of the last step, and then of this one.
+Status ForceNewton::ContinueAlongEquilibria(double* damping) {
+  const ForceNewtonTuning& tuning = kForceNewtonTuning;
+  ModelState& state = *frame_.state;
   Status status = Linearise(state, /*allow_shift=*/true);
   if (!status.ok()) return status;
   ++fit_.iterations;
-  qp_.Start(*frame_.cables, state.lambda_a_N);
-  status = SolveQp(state);
-  if (!status.ok()) return status;
-  double fraction = 1.0;
-  for (int k = 0; k < kForceNewtonTuning.most_halvings; ++k, fraction *= 0.5) {
-    status = StepToEquilibrium(fraction);
-    if (status.ok() || status.code() == StatusCode::kBudgetReached) return status;
+  // The residual before is comparable only where the state before was an equilibrium.
+  const double before = state.balanced ? ChiSquared(*frame_.targets, state, &fit_.residual_m)
+                                       : std::numeric_limits<double>::infinity();
+  *damping = *damping > tuning.least_damping ? *damping / tuning.damping_growth : 0.0;
+  for (int failures = 0; failures < tuning.most_failures; ++failures) {
+    qp_.Start(*frame_.cables, state.lambda_a_N);
+    status = SolveQp(state, *damping);
+    if (!status.ok()) return status;
+    ModelState moved = state;
+    status = Balance(qp_.lambda_f_N(), &continuation_solver_, &moved);
+    if (status.code() == StatusCode::kBudgetReached) return status;
+    const double after = ChiSquared(*frame_.targets, moved, &fit_.residual_m);
+    if (status.ok() && after <= before) {
+      state = std::move(moved);
+      const bool gains = after <= (1.0 - tuning.least_gain) * before;
+      return gains ? Status::Ok() : Status(StatusCode::kNotConverged, {});
+    }
+    *damping = std::max(tuning.least_damping, tuning.damping_growth * *damping);
   }
   return {StatusCode::kNotConverged, {}};
 }
 
-Status ForceNewton::StepToEquilibrium(double fraction) {
-  ModelState& state = *frame_.state;
-  ModelState moved = state;
-  moved.lambda_f_N += fraction * (qp_.lambda_f_N() - state.lambda_f_N);
+/// Brings `state` into equilibrium with the frame's inputs and these contact forces. It stays as it
+/// was where that fails.
+Status ForceNewton::Balance(const Eigen::VectorXd& lambda_f_N, fem::StaticSolver* solver,
+                            ModelState* state) {
   fem::LoadState loads = model_.Loads(*frame_.cables, {});
-  fem::StaticState body{state.x_m, state.lambda_a_N, loads};
-  UpdateExternalForce(state.lambda_f_N);
+  fem::StaticState body{state->x_m, state->lambda_a_N, loads};
+  UpdateExternalForce(state->lambda_f_N);
   body.loads.external_force_N = external_force_N_;
-  UpdateExternalForce(moved.lambda_f_N);
+  UpdateExternalForce(lambda_f_N);
   loads.external_force_N = external_force_N_;
-  Status status = static_solver_.Solve(loads, &body, *frame_.budget).status;
+  const Status status = solver->Solve(loads, &body, *frame_.budget).status;
   if (!status.ok()) return status;
-  moved.x_m = body.x_m;
-  moved.lambda_a_N = body.multipliers_N;
-  moved.balanced = true;
-  // The residual before is comparable only where the state before was an equilibrium.
-  const double before = ChiSquared(*frame_.targets, state, &fit_.residual_m);
-  const double after = ChiSquared(*frame_.targets, moved, &fit_.residual_m);
-  if (state.balanced && after > before * (1.0 + kForceNewtonTuning.residual_rounding))
-    return {StatusCode::kNotConverged, {}};
-  state = std::move(moved);
-  return Status::Ok();
+  state->x_m = body.x_m;
+  state->lambda_a_N = body.multipliers_N;
+  state->lambda_f_N = lambda_f_N;
+  state->balanced = true;
+  return status;
 }
 
 Status ForceNewton::Linearise(const ModelState& state, bool allow_shift) {

@@ -205,12 +205,12 @@ class ForceNewton final : private fem::NewtonProblem {
 
   Status FitWithContinuation();
   Status RunNewton(bool exact_only);
-  Status ContinueAlongEquilibria();
-  Status StepToEquilibrium(double fraction);
+  Status ContinueAlongEquilibria(double* damping);
+  Status Balance(const Eigen::VectorXd& lambda_f_N, fem::StaticSolver* solver, ModelState* state);
   Status Linearise(const ModelState& state, bool allow_shift);
   bool IsEvaluated(const ModelState& state) const;
   Status SolveInObservableDirections(const ModelState& state);
-  Status SolveQp(const ModelState& state);
+  Status SolveQp(const ModelState& state, double damping = 0.0);
   double Error(const ModelState& state) const;
   double EquilibriumError(const ModelState& state) const;
   double CableError(const ModelState& state) const;
@@ -226,7 +226,8 @@ class ForceNewton final : private fem::NewtonProblem {
   robot::RobotModel& model_;
   Config config_;
   robot::Compliance compliance_;
-  fem::StaticSolver static_solver_;  ///< for continuation steps
+  fem::StaticSolver input_solver_;
+  fem::StaticSolver continuation_solver_;
   ForceQp qp_;
   bool keep_factor_ = false;
   bool tell_modulus_sensitivity_ = true;

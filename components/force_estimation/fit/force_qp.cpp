@@ -58,7 +58,7 @@ void ForceQp::KeepObservable(const RowTargets& targets, double largest_sigma_N) 
 
 Status ForceQp::Solve(const robot::Compliance& compliance, const RowTargets& targets,
                       const std::vector<robot::ActuatorCommand>& commands,
-                      const Eigen::VectorXd& start_lambda_f_N) {
+                      const Eigen::VectorXd& start_lambda_f_N, double damping) {
   const fem::QpMatrix& basis = observable_.basis();
   const Eigen::Index q = basis.cols();
   fem::BoundedQp qp;
@@ -71,6 +71,9 @@ Status ForceQp::Solve(const robot::Compliance& compliance, const RowTargets& tar
     qp.H = basis.transpose() * Information(targets) * basis;
     qp.c = basis.transpose() * Projection(targets, misfit_m_);
     if (q > 0) {
+      const double hold = damping * qp.H.diagonal().maxCoeff();
+      qp.H.diagonal().array() += hold;
+      qp.c -= hold * start_;
       const fem::BoundedQpResult solution = fem::SolveBoundedQp(qp, start_);
       if (!solution.status.ok()) return solution.status;
       lambda_f_N_ = basis * solution.x;

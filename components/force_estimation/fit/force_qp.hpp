@@ -51,11 +51,13 @@ class ForceQp {
              const Eigen::VectorXd& lambda_a_N) {
     condensation_.Start(commands, lambda_a_N);
   }
-  /// Sets lambda_f_N() and lambda_a_N(); begins at `start_lambda_f_N` [3k]. Not ok where the
-  /// actuators' responses are linearly dependent, or the forces without a minimum.
+  /// Sets lambda_f_N() and lambda_a_N(); begins at `start_lambda_f_N` [3k]. `damping`: weight of
+  /// the change from there, as a share of the largest information (Levenberg and Marquardt); it
+  /// shortens first what the rows determine least. Not ok where the actuators' responses are
+  /// linearly dependent, or the forces without a minimum.
   Status Solve(const robot::Compliance& compliance, const RowTargets& targets,
                const std::vector<robot::ActuatorCommand>& commands,
-               const Eigen::VectorXd& start_lambda_f_N);
+               const Eigen::VectorXd& start_lambda_f_N, double damping = 0.0);
   const Eigen::VectorXd& lambda_f_N() const { return lambda_f_N_; }  ///< [3k] robot frame
   const Eigen::VectorXd& lambda_a_N() const { return lambda_a_N_; }  ///< [a]
 
