@@ -161,7 +161,7 @@ std::vector<RankedProposal> RankProposals(const experiment::Experiment& experime
   std::vector<RankedProposal> ranked;
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < planned.recordings.size(); ++r) {
-    const Eigen::Index rows = model.of_recording[r].rows;
+    const Eigen::Index rows = model.rows_of_recording[r];
     if (rows > 0) {
       const RankedProposal one = Rank(proposals[r - observed.recordings.size()],
                                       model.J.middleRows(first, rows), question, parameters);

@@ -42,7 +42,7 @@ void DescribeLimits(const HypothesisSet& hypotheses, const Selection& selection,
                     DiagnosisResult* result) {
   const Fit& null_model = selection.null_model;
   if (null_model.model.y.size() == 0) return;
-  const Eigen::MatrixXd H = null_model.model.All().H;
+  const Eigen::MatrixXd& H = null_model.model.All().H;
   const LinearComparison comparison(hypotheses, H,
                                     hypotheses.PriorWith({}, null_model.posterior.scale));
   for (const SmallestSize& size :

@@ -132,7 +132,7 @@ std::vector<Eigen::VectorXd> LeftOut(const HypothesisSet& hypotheses, const Fit&
                                      const std::vector<int>& causes) {
   std::vector<Eigen::VectorXd> z;
   const Eigen::VectorXd scale = hypotheses.InferScale(fit.model.All(), causes);
-  for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
+  for (std::size_t r = 0; r < fit.model.rows_of_recording.size(); ++r) {
     z.push_back(hypotheses.InferWithin(fit.model.AllBut(r), causes, scale).mean);
   }
   return z;

@@ -39,7 +39,7 @@ bool IsNamed(const HypothesisSet& hypotheses, const std::vector<int>& faults, in
 std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& selection) {
   const HypothesisSet& hypotheses = fitter.hypotheses();
   const Fit& best = selection.best;
-  const Information data = best.model.All();
+  const Information& data = best.model.All();
   std::vector<Exchange> exchanges;
   for (std::size_t n = 0; n < selection.named.size(); ++n) {
     for (int k = 0; k < hypotheses.size(); ++k) {

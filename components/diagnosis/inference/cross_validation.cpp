@@ -25,16 +25,16 @@ CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& 
   out.residual = model.y;
   const Posterior all = hypotheses.InferWithin(model.All(), faults);
   Eigen::Index first = 0;
-  for (std::size_t r = 0; r < model.of_recording.size(); ++r) {
-    const Information& own = model.of_recording[r];
+  for (std::size_t r = 0; r < model.rows_of_recording.size(); ++r) {
+    const Eigen::Index rows = model.rows_of_recording[r];
     const Information others = model.AllBut(r);
     const Posterior posterior = hypotheses.InferWithin(others, faults, all.scale);
-    const auto J = model.J.middleRows(first, own.rows);
-    auto residual = out.residual.segment(first, own.rows);
+    const auto J = model.J.middleRows(first, rows);
+    auto residual = out.residual.segment(first, rows);
     residual -= J * posterior.mean;
     out.chi_squared.push_back(residual.squaredNorm());
     out.ln_predicted.push_back(all.ln_evidence - posterior.ln_evidence);
-    first += own.rows;
+    first += rows;
   }
   return out;
 }

@@ -64,7 +64,7 @@ void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* ot
 LinearModel Fitter::LinearModelOf(const Fit& fit) const {
   LinearModel model =
       Linearise(observed_, fit.simulation, hypotheses_.Simulated(fit.z), marker_rest_m_, noise_);
-  for (Information& one : model.of_recording) one.about = fit.z;
+  model.SetAbout(fit.z);
   return model;
 }
 
@@ -247,7 +247,7 @@ bool Fitter::IsKnownBySimulation(int k, const Fit& fit) const {
 
 double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z,
                         const Eigen::VectorXd& scale) const {
-  const Information data = fit.model.All();
+  const Information& data = fit.model.All();
   const GaussianPrior prior = hypotheses_.PriorWith(fit.faults, scale);
   double misfit = data.c + z.dot(data.H * z - 2.0 * data.b);
   for (Eigen::Index p = 0; p < z.size(); ++p) {

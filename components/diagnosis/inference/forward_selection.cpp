@@ -50,7 +50,7 @@ std::vector<int> With(std::vector<int> faults, int fault) {
 std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
                               const std::vector<int>& faults) {
   const HypothesisSet& hypotheses = fitter.hypotheses();
-  const Information data = about.model.All();
+  const Information& data = about.model.All();
   const Posterior base = hypotheses.InferWithin(data, faults, about.posterior.scale);
   const Eigen::VectorXd at_first =
       LinearComparison(hypotheses, data.H, base.prior).LnBayesFactors(data.b);
@@ -455,15 +455,15 @@ int ForwardSelectionStep::SeenIn(std::size_t k) const {
   Eigen::Index first_before = 0;
   for (std::size_t r = 0; r < observed_.recordings.size(); ++r) {
     const auto misfit = [&](const Fit& fit, Eigen::Index begin) {
-      const Eigen::Index rows = fit.model.of_recording[r].rows;
+      const Eigen::Index rows = fit.model.rows_of_recording[r];
       return (fit.model.y.segment(begin, rows) -
               fit.model.J.middleRows(begin, rows) * fit.posterior.mean)
           .squaredNorm();
     };
     const double gain = 0.5 * (misfit(before_, first_before) - misfit(fits_[k], first));
     if (gain > kSelectionTuning.seen_chi_squared) ++recordings;
-    first += fits_[k].model.of_recording[r].rows;
-    first_before += before_.model.of_recording[r].rows;
+    first += fits_[k].model.rows_of_recording[r];
+    first_before += before_.model.rows_of_recording[r];
   }
   return recordings;
 }
@@ -471,7 +471,7 @@ int ForwardSelectionStep::SeenIn(std::size_t k) const {
 void ForwardSelectionStep::Explain() {
   const HypothesisSet& hypotheses = fitter_.hypotheses();
   const int first = found_ < candidates_.size() ? candidates_[found_].fault : -1;
-  const Information data = before_.model.All();
+  const Information& data = before_.model.All();
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     Candidate& candidate = candidates_[k];
     if (first >= 0 && k != found_) {

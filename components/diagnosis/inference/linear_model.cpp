@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "libs/core/index.hpp"
 #include "libs/linalg/gram.hpp"
@@ -99,6 +100,53 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
   return series;
 }
 
+/// Whitened rows of one recording, and what each is of.
+struct RecordingRows {
+  Eigen::MatrixXd J_y;  ///< [rows x (parameters + 1)]
+  std::vector<int> samples;
+  std::vector<int> coordinates;
+};
+
+RecordingRows RowsOf(const ObservedExperiment& observed, const Simulation& simulation,
+                     const Eigen::VectorXd& z, const std::vector<Series>& series) {
+  RecordingRows rows;
+  for (std::size_t c = 0; c < series.size(); ++c) {
+    rows.samples.insert(rows.samples.end(), series[c].samples.begin(), series[c].samples.end());
+    rows.coordinates.insert(rows.coordinates.end(), series[c].samples.size(), static_cast<int>(c));
+  }
+  rows.J_y.resize(std::ssize(rows.samples), z.size() + 1);
+  Eigen::Index first = 0;
+  for (std::size_t c = 0; c < series.size(); ++c) {
+    const auto count = std::ssize(series[c].samples);
+    if (count == 0) continue;
+    Eigen::MatrixXd own(count, z.size() + 1);
+    const auto coordinate = ToIndex(c);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto s = static_cast<std::size_t>(series[c].samples[At(k)]);
+      const SimulatedSample& simulated = simulation.samples[s];
+      own.row(k).head(z.size()) = simulated.jacobian_m.row(coordinate);
+      own(k, z.size()) = Measured_m(observed.samples[s], coordinate) -
+                         simulated.seen_m[coordinate] + own.row(k).head(z.size()).dot(z);
+    }
+    rows.J_y.middleRows(first, count) = Whitening(series[c])(own);
+    first += count;
+  }
+  return rows;
+}
+
+/// J and y.
+Information InformationOf(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& J,
+                          const Eigen::Ref<const Eigen::VectorXd>& y,
+                          const Eigen::VectorXd& about) {
+  Information information(0);
+  information.H = linalg::Gram(J);
+  information.b.noalias() = J.transpose() * y;
+  information.c = y.squaredNorm();
+  information.rows = static_cast<int>(y.size());
+  information.about = about;
+  return information;
+}
+
 }  // namespace
 
 Information::Information(Eigen::Index parameters)
@@ -106,25 +154,22 @@ Information::Information(Eigen::Index parameters)
       b(Eigen::VectorXd::Zero(parameters)),
       about(Eigen::VectorXd::Zero(parameters)) {}
 
-void Information::Add(const Information& other) {
-  H += other.H;
-  b += other.b;
-  c += other.c;
-  rows += other.rows;
-  about = other.about;
-}
+void LinearModel::Sum(const Eigen::VectorXd& about) { all_ = InformationOf(J, y, about); }
 
-Information LinearModel::All() const {
-  Information all(J.cols());
-  for (const Information& one : of_recording) all.Add(one);
-  return all;
+Information LinearModel::OfRecording(std::size_t recording) const {
+  const auto end = rows_of_recording.begin() + ToIndex(recording);
+  const Eigen::Index first = std::accumulate(rows_of_recording.begin(), end, Eigen::Index{0});
+  const Eigen::Index rows = rows_of_recording[recording];
+  return InformationOf(J.middleRows(first, rows), y.segment(first, rows), all_.about);
 }
 
 Information LinearModel::AllBut(std::size_t recording) const {
-  Information some(J.cols());
-  for (std::size_t k = 0; k < of_recording.size(); ++k) {
-    if (k != recording) some.Add(of_recording[k]);
-  }
+  Information some = all_;
+  const Information one = OfRecording(recording);
+  some.H -= one.H;
+  some.b -= one.b;
+  some.c -= one.c;
+  some.rows -= one.rows;
   return some;
 }
 
@@ -132,45 +177,34 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
                       const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
                       const NoiseModel& noise) {
   const Eigen::Index coordinates = 3 * rest_m.cols() + observed.feature_rest_m.cols();
-  const Eigen::Index most = std::ssize(observed.samples) * coordinates;
+  std::vector<std::vector<Series>> series(observed.recordings.size());
   LinearModel model;
-  model.J.resize(most, z.size());
-  model.y.resize(most);
-  Eigen::Index row = 0;
-  for (std::size_t r = 0; r < observed.recordings.size(); ++r) {
-    const Eigen::Index first = row;
+  Eigen::Index all = 0;
+  for (std::size_t r = 0; r < series.size(); ++r) {
+    Eigen::Index rows = 0;
     for (Eigen::Index coordinate = 0; coordinate < coordinates; ++coordinate) {
-      const Series series =
-          SeriesOf(observed, simulation, static_cast<int>(r), coordinate, rest_m, noise);
-      const auto count = std::ssize(series.samples);
-      if (count == 0) continue;
-      Eigen::MatrixXd both(count, z.size() + 1);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const auto s = static_cast<std::size_t>(series.samples[At(k)]);
-        const SimulatedSample& simulated = simulation.samples[s];
-        both.row(k).head(z.size()) = simulated.jacobian_m.row(coordinate);
-        both(k, z.size()) = Measured_m(observed.samples[s], coordinate) -
-                            simulated.seen_m[coordinate] +
-                            simulated.jacobian_m.row(coordinate).dot(z);
-        model.sample_of_row.push_back(static_cast<int>(s));
-        model.coordinate_of_row.push_back(static_cast<int>(coordinate));
-      }
-      const Eigen::MatrixXd white = Whitening(series)(both);
-      model.J.middleRows(row, count) = white.leftCols(z.size());
-      model.y.segment(row, count) = white.col(z.size());
-      row += count;
+      series[r].push_back(
+          SeriesOf(observed, simulation, static_cast<int>(r), coordinate, rest_m, noise));
+      rows += std::ssize(series[r].back().samples);
     }
-    Information& information = model.of_recording.emplace_back(z.size());
-    const auto J = model.J.middleRows(first, row - first);
-    const auto y = model.y.segment(first, row - first);
-    information.H = linalg::Gram(J);
-    information.b.noalias() = J.transpose() * y;
-    information.c = y.squaredNorm();
-    information.rows = static_cast<int>(row - first);
-    information.about = z;
+    model.rows_of_recording.push_back(rows);
+    all += rows;
   }
-  model.J.conservativeResize(row, Eigen::NoChange);
-  model.y.conservativeResize(row);
+  model.J.resize(all, z.size());
+  model.y.resize(all);
+  Eigen::Index first = 0;
+  for (const std::vector<Series>& of_recording : series) {
+    const RecordingRows rows = RowsOf(observed, simulation, z, of_recording);
+    const Eigen::Index count = rows.J_y.rows();
+    model.J.middleRows(first, count) = rows.J_y.leftCols(z.size());
+    model.y.segment(first, count) = rows.J_y.col(z.size());
+    model.sample_of_row.insert(model.sample_of_row.end(), rows.samples.begin(),
+                               rows.samples.end());
+    model.coordinate_of_row.insert(model.coordinate_of_row.end(), rows.coordinates.begin(),
+                                   rows.coordinates.end());
+    first += count;
+  }
+  model.Sum(z);
   return model;
 }
 

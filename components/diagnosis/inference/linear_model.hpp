@@ -21,21 +21,28 @@ struct Information {
   Eigen::VectorXd about;  ///< the z about which it is linear
 
   explicit Information(Eigen::Index parameters);
-  void Add(const Information& other);
 };
 
 /// An experiment linearised about z, whitened: y - J z is noise of unit variance. Rows of one
 /// recording and coordinate share the mesh's error (NoiseModel) and, of markers, where the
 /// recording counts from a shape in which the body was held, that shape's.
 struct LinearModel {
-  Eigen::MatrixXd J;  ///< [rows x parameters]
+  Eigen::MatrixXd J;  ///< [rows x parameters], one recording after the other
   Eigen::VectorXd y;  ///< [rows]
   std::vector<int> sample_of_row;
   std::vector<int> coordinate_of_row;  ///< 3 marker + axis, then features of the surface
-  std::vector<Information> of_recording;
+  std::vector<Eigen::Index> rows_of_recording;
 
-  Information All() const;
+  /// Of all rows. To be called again when J or y changed.
+  void Sum(const Eigen::VectorXd& about);
+  const Information& All() const { return all_; }
+  /// The z about which it is linear is another than that of y.
+  void SetAbout(const Eigen::VectorXd& z) { all_.about = z; }
+  Information OfRecording(std::size_t recording) const;
   Information AllBut(std::size_t recording) const;
+
+ private:
+  Information all_{0};
 };
 
 struct NoiseModel {

@@ -37,7 +37,7 @@ std::vector<int> Moved(std::vector<int> faults, int from, int to) {
 std::vector<Elsewhere> FitElsewhere(const Fitter& fitter, const Fit& fit, int fault) {
   const HypothesisSet& hypotheses = fitter.hypotheses();
   std::vector<Elsewhere> places;
-  const Information data = fit.model.All();
+  const Information& data = fit.model.All();
   for (int k = 0; k < hypotheses.size(); ++k) {
     if (k == fault || !(hypotheses.model(k).name() == hypotheses.model(fault).name())) continue;
     places.push_back({k, hypotheses.InferWithin(data, Moved(fit.faults, fault, k))});

@@ -48,8 +48,8 @@ struct Rows {
 };
 
 Rows RowsOf(const LinearModel& model, std::size_t recording) {
-  Rows rows{0, model.of_recording[recording].rows};
-  for (std::size_t r = 0; r < recording; ++r) rows.first += model.of_recording[r].rows;
+  Rows rows{0, model.rows_of_recording[recording]};
+  for (std::size_t r = 0; r < recording; ++r) rows.first += model.rows_of_recording[r];
   return rows;
 }
 
@@ -61,7 +61,7 @@ Eigen::VectorXd LeftOf(const Known& known, const Rows& rows) {
 std::size_t WorstRecording(const Known& known) {
   std::size_t worst = 0;
   double most = -1.0;
-  for (std::size_t r = 0; r < known.model.of_recording.size(); ++r) {
+  for (std::size_t r = 0; r < known.model.rows_of_recording.size(); ++r) {
     const Rows rows = RowsOf(known.model, r);
     const double sum = LeftOf(known, rows).squaredNorm();
     if (rows.count == 0 || sum <= most * static_cast<double>(rows.count)) continue;

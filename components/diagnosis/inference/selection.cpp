@@ -56,7 +56,7 @@ void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
   const auto count = std::ssize(selection->compared);
   selection->canonical_correlation = Eigen::MatrixXd::Identity(count, count);
   const Fit& about = selection->null_model;
-  const Information data = about.model.All();
+  const Information& data = about.model.All();
   for (Eigen::Index a = 0; a < count; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
       const double indistinguishable =

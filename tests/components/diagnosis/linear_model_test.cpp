@@ -99,7 +99,7 @@ class LinearModelTest : public testing::Test {
 
   void ExpectAsDense(const LinearModel& model) const {
     for (int recording = 0; recording < 2; ++recording) {
-      const Information& one = model.of_recording[static_cast<std::size_t>(recording)];
+      const Information one = model.OfRecording(static_cast<std::size_t>(recording));
       const Information dense = Dense(recording);
       EXPECT_EQ(one.rows, dense.rows);
       EXPECT_TRUE(one.H.isApprox(dense.H, 1e-8)) << one.H << "\n\n" << dense.H;
@@ -141,7 +141,7 @@ TEST_F(LinearModelTest, WhatWasNotSeenOrNotSolvedHasNoRows) {
   simulation_.samples[3].seen_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   const LinearModel without = Model();
   EXPECT_EQ(without.y.size(), 15);
-  EXPECT_EQ(without.of_recording[1].rows, 0);
+  EXPECT_EQ(without.rows_of_recording[1], 0);
   EXPECT_TRUE(without.y.allFinite() && without.J.allFinite());
 }
 
@@ -154,7 +154,7 @@ TEST_F(LinearModelTest, RowsKnowTheirMomentAndAddUp) {
   EXPECT_EQ(model.coordinate_of_row[0], 0);
   EXPECT_EQ(model.coordinate_of_row[3], 1);
   EXPECT_TRUE(model.All().H.isApprox(model.J.transpose() * model.J, 1e-9));
-  EXPECT_TRUE(model.AllBut(0).b.isApprox(model.of_recording[1].b, 1e-12));
+  EXPECT_TRUE(model.AllBut(0).b.isApprox(model.OfRecording(1).b, 1e-12));
 }
 
 }  // namespace

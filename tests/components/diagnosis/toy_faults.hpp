@@ -80,14 +80,8 @@ class ToyData {
     fit.model = model_;
     fit.model.y = y;
     const Eigen::Index each = rows() / std::ssize(observed.recordings);
-    for (Eigen::Index first = 0; first < rows(); first += each) {
-      Information& one = fit.model.of_recording.emplace_back(hypotheses.parameter_count());
-      const auto J = model_.J.middleRows(first, each);
-      one.H = J.transpose() * J;
-      one.b = J.transpose() * y.segment(first, each);
-      one.c = y.segment(first, each).squaredNorm();
-      one.rows = static_cast<int>(each);
-    }
+    fit.model.rows_of_recording.assign(observed.recordings.size(), each);
+    fit.model.Sum(fit.z);
     fit.posterior = hypotheses.InferWithin(fit.model.All(), faults);
     return fit;
   }
