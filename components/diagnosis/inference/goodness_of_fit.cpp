@@ -9,7 +9,9 @@
 #include <set>
 #include <utility>
 #include <vector>
+
 #include "libs/core/index.hpp"
+#include "libs/linalg/product.hpp"
 #include "libs/linalg/qr.hpp"
 
 namespace palpate::diagnosis {
@@ -49,6 +51,34 @@ Eigen::MatrixXd Directions(Eigen::MatrixXd columns) {
   const double largest = columns.cwiseAbs().maxCoeff();
   if (!(largest > kSame)) return none;
   return linalg::OrthonormalBasis(columns / largest, kSame);
+}
+
+/// [tests x draws] what experiments of the fitted model give, whose parameters differ from it by
+/// `sigma`.
+Eigen::MatrixXd DrawStatistics(const ResidualStatistics& statistics, const Eigen::VectorXd& sigma,
+                               const Fit& fit, int draws, std::uint64_t seed) {
+  constexpr int kAtOnce = 50;  // memory
+  const LinearModel& model = fit.model;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(random); };
+  Eigen::MatrixXd drawn(statistics.count(), draws);
+  for (int first = 0; first < draws; first += kAtOnce) {
+    const int count = std::min(kAtOnce, draws - first);
+    Eigen::MatrixXd z(sigma.size(), count);
+    Eigen::MatrixXd noise(model.y.size(), count);
+    for (int d = 0; d < count; ++d) {
+      z.col(d) = Eigen::VectorXd::NullaryExpr(z.rows(), draw).cwiseProduct(sigma);
+      noise.col(d) = Eigen::VectorXd::NullaryExpr(noise.rows(), draw);
+    }
+    // The residual of the posterior mean is linear in what is measured.
+    const Eigen::MatrixXd off = linalg::Product(model.J, z) + noise;
+    const Eigen::MatrixXd mean =
+        linalg::Product(fit.posterior.covariance, linalg::TransposedProduct(model.J, off));
+    const Eigen::MatrixXd residual = off - linalg::Product(model.J, mean);
+    for (int d = 0; d < count; ++d) drawn.col(first + d) = statistics.Of(residual.col(d));
+  }
+  return drawn;
 }
 
 }  // namespace
@@ -183,23 +213,9 @@ GoodnessOfFit TestGoodnessOfFit(const ObservedExperiment& observed,
                                 std::uint64_t seed) {
   const LinearModel& model = fit.model;
   const ResidualStatistics residual_statistics(observed, marker_rest_m, model);
-  const GaussianPrior prior = hypotheses.PriorWith(fit.faults, fit.posterior.scale);
-  // The residual of the posterior mean is linear in what is measured.
-  const auto residual_of = [&](const Eigen::VectorXd& off) -> Eigen::VectorXd {
-    return off - model.J * (fit.posterior.covariance * (model.J.transpose() * off));
-  };
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  Eigen::MatrixXd drawn(residual_statistics.count(), draws);
-  for (int d = 0; d < draws; ++d) {
-    Eigen::VectorXd z =
-        Eigen::VectorXd::NullaryExpr(prior.sigma.size(), [&] { return normal(random); });
-    z = z.cwiseProduct(prior.sigma);
-    for (const Eigen::Index p : hypotheses.ParametersOf(fit.faults)) z[p] = 0.0;
-    const Eigen::VectorXd noise =
-        Eigen::VectorXd::NullaryExpr(model.y.size(), [&] { return normal(random); });
-    drawn.col(d) = residual_statistics.Of(residual_of(model.J * z + noise));
-  }
+  Eigen::VectorXd sigma = hypotheses.PriorWith(fit.faults, fit.posterior.scale).sigma;
+  sigma(hypotheses.ParametersOf(fit.faults)).setZero();
+  const Eigen::MatrixXd drawn = DrawStatistics(residual_statistics, sigma, fit, draws, seed);
   const Eigen::VectorXd mean = drawn.rowwise().mean();
   const Eigen::VectorXd deviation =
       ((drawn.colwise() - mean).rowwise().squaredNorm() / (draws - 1)).cwiseSqrt().cwiseMax(1e-9);

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "libs/core/index.hpp"
-#include "libs/linalg/gram.hpp"
+#include "libs/linalg/product.hpp"
 #include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
@@ -134,9 +134,7 @@ RecordingRows RowsOf(const ObservedExperiment& observed, const Simulation& simul
   return rows;
 }
 
-/// J and y.
-Information InformationOf(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& J,
-                          const Eigen::Ref<const Eigen::VectorXd>& y,
+Information InformationOf(const linalg::MatrixRef& J, const Eigen::Ref<const Eigen::VectorXd>& y,
                           const Eigen::VectorXd& about) {
   Information information(0);
   information.H = linalg::Gram(J);
@@ -198,8 +196,7 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
     const Eigen::Index count = rows.J_y.rows();
     model.J.middleRows(first, count) = rows.J_y.leftCols(z.size());
     model.y.segment(first, count) = rows.J_y.col(z.size());
-    model.sample_of_row.insert(model.sample_of_row.end(), rows.samples.begin(),
-                               rows.samples.end());
+    model.sample_of_row.insert(model.sample_of_row.end(), rows.samples.begin(), rows.samples.end());
     model.coordinate_of_row.insert(model.coordinate_of_row.end(), rows.coordinates.begin(),
                                    rows.coordinates.end());
     first += count;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libs/core/index.hpp"
+#include "libs/linalg/product.hpp"
 
 namespace palpate::diagnosis {
 
@@ -55,16 +56,21 @@ SimulatedHealthy SimulateHealthyRobots(const HypothesisSet& hypotheses,
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   SimulatedHealthy healthy{.drawn = draws};
+  Eigen::MatrixXd z(prior.sigma.size(), draws);
+  Eigen::MatrixXd noise(J.rows(), draws);
+  for (int draw = 0; draw < draws; ++draw) {
+    z.col(draw) = DrawHealthy(hypotheses, prior, &random);
+    for (double& value : noise.col(draw)) value = normal(random);
+  }
+  const Eigen::MatrixXd b =
+      linalg::TransposedProduct(J, linalg::Product(J, z) + noise);  // [parameters x draws]
   std::vector<double> most;
   for (int draw = 0; draw < draws; ++draw) {
-    Eigen::VectorXd y = J * DrawHealthy(hypotheses, prior, &random);
-    for (double& value : y) value += normal(random);
-    const Eigen::VectorXd b = J.transpose() * y;
     Eigen::Index fault = 0;
-    most.push_back(comparison.LnBayesFactors(b).maxCoeff(&fault));
+    most.push_back(comparison.LnBayesFactors(b.col(draw)).maxCoeff(&fault));
     if (most.back() < clear_evidence) continue;
     Eigen::VectorXd mean;
-    comparison.LnBayesFactor(static_cast<int>(fault), b, &mean);
+    comparison.LnBayesFactor(static_cast<int>(fault), b.col(draw), &mean);
     healthy.accused +=
         IsBeyondTolerances(hypotheses, static_cast<int>(fault), mean, least_tolerances) ? 1 : 0;
   }

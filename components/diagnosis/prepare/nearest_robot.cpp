@@ -28,6 +28,9 @@ constexpr double kFarthestMarker_m = 0.03;
 constexpr Eigen::Index kPoints = 500;
 /// Another robot is taken for it where the mean square of what points are off by is so much less.
 constexpr double kClearlyLess = 0.5;
+/// Exchanged actuators move the body from one of its driven shapes to another. A robot file's robot
+/// that is nearer than this share of the way between them, as mean squares, has none exchanged.
+constexpr double kNear = 0.1;
 
 /// How much more of its way than all actuators in the mean one is driven; NaN: it is not then.
 double DrivenApart(const Timeline& timeline, const Eigen::VectorXd& most, const Sample& sample,
@@ -95,6 +98,7 @@ class Distance {
       one.samples = {sample};
       simulators_.emplace_back(one, threads);
     }
+    shapes_m_.resize(alone_.size());
     if (source == nullptr) return;
     const Simulator simulator(telling, threads);
     SurfaceMatcher matcher(body);
@@ -112,6 +116,7 @@ class Distance {
     for (std::size_t s = 0; s < alone_.size(); ++s) {
       const Simulation simulation = simulators_[s].Run(hypothesis);
       if (!simulation.status.ok()) return std::numeric_limits<double>::quiet_NaN();
+      shapes_m_[s] = simulation.samples.front().middle.state.x_m;
       if (clouds_.empty()) {
         AddMarkers(simulation.samples.front(), telling_.samples[s]);
       } else {
@@ -121,6 +126,18 @@ class Distance {
     }
     count_of_all_ = count_;  // the same of all robots
     return sum_m2_ / count_;
+  }
+
+  /// Mean square over the nodes between the two samples of the last robot that are most alike, m2.
+  double BetweenMostAlike_m2() const {
+    double least_m2 = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < shapes_m_.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const double nodes = static_cast<double>(shapes_m_[a].size()) / 3.0;
+        least_m2 = std::min(least_m2, (shapes_m_[a] - shapes_m_[b]).squaredNorm() / nodes);
+      }
+    }
+    return least_m2;
   }
 
  private:
@@ -154,6 +171,7 @@ class Distance {
   std::deque<Simulator> simulators_;
   geometry::SurfaceIndex surface_;
   SurfaceClouds clouds_;
+  std::vector<Eigen::VectorXd> shapes_m_;  ///< [samples] of the robot that was simulated last
   double sum_m2_ = 0.0;
   double count_ = 0.0;
   double count_of_all_ = std::numeric_limits<double>::infinity();  ///< not known before the first
@@ -168,9 +186,11 @@ NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperi
   const ObservedExperiment telling = OfMostDriven(observed, body, source != nullptr);
   Distance distance(body, telling, threads, source, as_in_file);
   const auto begin = std::chrono::steady_clock::now();
-  double least_m2 = kClearlyLess * distance.MeanSquareOf_m2(as_in_file);
+  const double as_in_file_m2 = distance.MeanSquareOf_m2(as_in_file);
   nearest.sample_s =
       SecondsSince(begin) / std::max(1.0, static_cast<double>(telling.samples.size()));
+  if (as_in_file_m2 < kNear * distance.BetweenMostAlike_m2()) return nearest;
+  double least_m2 = kClearlyLess * as_in_file_m2;
   std::vector<FaultModelPtr> far_off;
   MakeSwappedCables({.body = body, .observed = telling}, &far_off);
   MakeSwappedTubes({.body = body, .observed = telling}, &far_off);
