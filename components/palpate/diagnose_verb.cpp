@@ -28,6 +28,7 @@
 #include "components/palpate/images/perception_settings.hpp"
 #include "components/palpate/import/import_options.hpp"
 #include "components/palpate/recordings/data_folder.hpp"
+#include "libs/app/process_tuning.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/version.hpp"
@@ -301,6 +302,7 @@ int Diagnose(const DiagnoseOptions& options) {
   if (!options.explain.empty())
     CheckCause("--explain", options.explain, diagnosis::SearchedFaults());
   CheckOutputFolder(options.out);
+  app::KeepLargeBlocks();  // fits come and go
   PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =

@@ -52,6 +52,7 @@ class Simulator {
                                    const Simulation& simulation) const;
 
   const HistoryOperator& history() const { return history_; }
+  int threads() const { return threads_; }
 
  private:
   /// [threads] of one hypothesis, each made where it is first needed.

@@ -4,8 +4,11 @@
 #include "components/diagnosis/inference/linear_model.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <thread>
 
 #include "libs/core/index.hpp"
 #include "libs/linalg/product.hpp"
@@ -173,7 +176,7 @@ Information LinearModel::AllBut(std::size_t recording) const {
 
 LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
                       const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
-                      const NoiseModel& noise) {
+                      const NoiseModel& noise, int threads) {
   const Eigen::Index coordinates = 3 * rest_m.cols() + observed.feature_rest_m.cols();
   std::vector<std::vector<Series>> series(observed.recordings.size());
   LinearModel model;
@@ -190,16 +193,28 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
   }
   model.J.resize(all, z.size());
   model.y.resize(all);
-  Eigen::Index first = 0;
-  for (const std::vector<Series>& of_recording : series) {
-    const RecordingRows rows = RowsOf(observed, simulation, z, of_recording);
-    const Eigen::Index count = rows.J_y.rows();
-    model.J.middleRows(first, count) = rows.J_y.leftCols(z.size());
-    model.y.segment(first, count) = rows.J_y.col(z.size());
-    model.sample_of_row.insert(model.sample_of_row.end(), rows.samples.begin(), rows.samples.end());
-    model.coordinate_of_row.insert(model.coordinate_of_row.end(), rows.coordinates.begin(),
-                                   rows.coordinates.end());
-    first += count;
+  model.sample_of_row.resize(static_cast<std::size_t>(all));
+  model.coordinate_of_row.resize(static_cast<std::size_t>(all));
+  std::vector<Eigen::Index> first_of;
+  std::exclusive_scan(model.rows_of_recording.begin(), model.rows_of_recording.end(),
+                      std::back_inserter(first_of), Eigen::Index{0});
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t r = next++; r < series.size(); r = next++) {
+      const RecordingRows rows = RowsOf(observed, simulation, z, series[r]);
+      const Eigen::Index count = rows.J_y.rows();
+      model.J.middleRows(first_of[r], count) = rows.J_y.leftCols(z.size());
+      model.y.segment(first_of[r], count) = rows.J_y.col(z.size());
+      std::copy(rows.samples.begin(), rows.samples.end(),
+                model.sample_of_row.begin() + first_of[r]);
+      std::copy(rows.coordinates.begin(), rows.coordinates.end(),
+                model.coordinate_of_row.begin() + first_of[r]);
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < threads; ++k) others.emplace_back(work);
+    work();
   }
   model.Sum(z);
   return model;

@@ -55,9 +55,10 @@ struct NoiseModel {
 };
 
 /// About `z` [parameters], at which `simulation` with its Jacobian was made. Samples that failed
-/// and what was not seen have no rows. `rest_m` [3 x markers]: of the undeformed body.
+/// and what was not seen have no rows. `rest_m` [3 x markers]: of the undeformed body. Threads
+/// share the recordings.
 LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
                       const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
-                      const NoiseModel& noise);
+                      const NoiseModel& noise, int threads = 1);
 
 }  // namespace palpate::diagnosis
