@@ -62,9 +62,8 @@ void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* ot
 
 /// Where the discrepancy is, what is simulated has nothing of it.
 LinearModel Fitter::LinearModelOf(const Fit& fit) const {
-  LinearModel model =
-      Linearise(observed_, fit.simulation, hypotheses_.Simulated(fit.z), marker_rest_m_, noise_,
-                simulator_.threads());
+  LinearModel model = Linearise(observed_, fit.simulation, hypotheses_.Simulated(fit.z),
+                                marker_rest_m_, noise_, simulator_.threads());
   model.SetAbout(fit.z);
   return model;
 }

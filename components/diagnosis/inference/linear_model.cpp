@@ -155,6 +155,13 @@ Information::Information(Eigen::Index parameters)
       b(Eigen::VectorXd::Zero(parameters)),
       about(Eigen::VectorXd::Zero(parameters)) {}
 
+void Information::Remove(const Information& part) {
+  H -= part.H;
+  b -= part.b;
+  c -= part.c;
+  rows -= part.rows;
+}
+
 void LinearModel::Sum(const Eigen::VectorXd& about) { all_ = InformationOf(J, y, about); }
 
 Information LinearModel::OfRecording(std::size_t recording) const {
@@ -166,11 +173,7 @@ Information LinearModel::OfRecording(std::size_t recording) const {
 
 Information LinearModel::AllBut(std::size_t recording) const {
   Information some = all_;
-  const Information one = OfRecording(recording);
-  some.H -= one.H;
-  some.b -= one.b;
-  some.c -= one.c;
-  some.rows -= one.rows;
+  some.Remove(OfRecording(recording));
   return some;
 }
 

@@ -21,6 +21,8 @@ struct Information {
   Eigen::VectorXd about;  ///< the z about which it is linear
 
   explicit Information(Eigen::Index parameters);
+  /// What is left without `part`, measurements that are among these.
+  void Remove(const Information& part);
 };
 
 /// An experiment linearised about z, whitened: y - J z is noise of unit variance. Rows of one

@@ -106,12 +106,12 @@ TEST(Infer, ABeliefAboutAnotherMeanIsOneAboutShiftedData) {
   EXPECT_TRUE(moved.mean.isApprox(shifted.mean + prior.mean, 1e-9));
 }
 
-TEST(Information, AddsUpOverIndependentData) {
+TEST(Information, WithoutAPartIsThatOfTheOthers) {
   const Problem problem(kEvidenceSeed);
-  Information sum = problem.Of(0, 5);
-  sum.Add(problem.Of(5, 9));
-  EXPECT_EQ(sum.rows, 14);
-  ExpectAlike(Infer(sum, SomePrior()), Dense(problem, SomePrior()));
+  Information rest = problem.Of(0, 14);
+  rest.Remove(problem.Of(0, 5));
+  EXPECT_EQ(rest.rows, 9);
+  ExpectAlike(Infer(rest, SomePrior()), Infer(problem.Of(5, 9), SomePrior()));
 }
 
 }  // namespace

@@ -85,6 +85,25 @@ TEST_F(ForceQpOnBeam, ForcesBalanceResidualAndPrior) {
               1e-9 * qp_.ChiSquared(targets));
 }
 
+TEST_F(ForceQpOnBeam, DampingHoldsTheStartAndLeavesTheSolutionWhereItIs) {
+  constexpr double kDamping = 0.1;
+  const RowTargets targets = SomeTargets();
+  Solve(targets);
+  const Eigen::VectorXd solution_N = qp_.lambda_f_N();
+  ASSERT_TRUE(qp_.Solve(compliance_, targets, {}, solution_N, kDamping).ok());
+  EXPECT_LT((qp_.lambda_f_N() - solution_N).norm(), 1e-6 * solution_N.norm());
+  ASSERT_TRUE(qp_.Solve(compliance_, targets, {}, start_N_, kDamping).ok());
+  const Eigen::VectorXd damped_N = qp_.lambda_f_N();
+  const Eigen::VectorXd residual_m =
+      qp_.response().e0_m() + qp_.response().G() * damped_N - targets.value_m;
+  const Eigen::VectorXd pull = qp_.Projection(targets, residual_m);
+  const double hold = kDamping * qp_.Information(targets).diagonal().maxCoeff();
+  EXPECT_LT((pull + hold * (damped_N - start_N_)).norm(), 1e-6 * pull.norm());
+  EXPECT_LT(damped_N.norm(), solution_N.norm());
+  ASSERT_TRUE(qp_.Solve(compliance_, targets, {}, solution_N, 1e12).ok());
+  EXPECT_LT((qp_.lambda_f_N() - solution_N).norm(), 1e-6 * solution_N.norm());
+}
+
 TEST_F(ForceQpOnBeam, CovarianceIsTheInverseOfTheInformation) {
   const RowTargets targets = SomeTargets();
   Solve(targets);

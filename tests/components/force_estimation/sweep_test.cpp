@@ -137,6 +137,23 @@ TEST(ForceNewtonSweep, ConvergesOnOurRobotInFourSteps) {
   ExpectConvergenceInFourSteps(test_support::LockingFourLegRobot());
 }
 
+/// As where frames are seconds apart.
+TEST(ForceNewtonSweep, InputsMayJump) {
+  Sweep sweep(test_support::LockingFourLegRobot());
+  Config config;
+  config.frame_tolerance = 1e-8;
+  ForceNewton fitter(sweep.model(), config);
+  fitter.SetSites(sweep.sites());
+  ModelState state = sweep.Start();
+  for (const int frame : {20, 0, 15, 40}) {
+    sweep.Solve(frame);
+    const ForceFit& fit = fitter.Fit(sweep.Targets(), sweep.Cables(frame), &state);
+    ASSERT_TRUE(fit.status.ok()) << frame << ' ' << ToString(fit.status.code());
+    EXPECT_LE(fit.continuation_steps, 1) << frame;
+    EXPECT_LE((state.lambda_f_N - Sweep::Forces_N(frame)).norm(), 1e-6) << frame;
+  }
+}
+
 TEST(ForceNewtonSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
   const auto robot = test_support::DiamondRobot();
   if (!robot) GTEST_SKIP() << "the paper's mesh is not there (PALPATE_DATA_DIR)";

@@ -10,12 +10,12 @@
 namespace palpate::linalg {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kProductRounding = 1e-12;
 
 void ExpectNear(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
   ASSERT_EQ(found.rows(), expected.rows());
   ASSERT_EQ(found.cols(), expected.cols());
-  EXPECT_LE((found - expected).norm(), kRounding * (1.0 + expected.norm()));
+  EXPECT_LE((found - expected).norm(), kProductRounding * (1.0 + expected.norm()));
 }
 
 TEST(Product, IsThatOfEigen) {
