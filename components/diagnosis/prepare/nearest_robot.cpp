@@ -29,7 +29,7 @@ constexpr Eigen::Index kPoints = 500;
 /// Another robot is taken for it where the mean square of what points are off by is so much less.
 constexpr double kClearlyLess = 0.5;
 /// Exchanged actuators move the body from one of its driven shapes to another. A robot file's robot
-/// that is nearer than this share of the way between them, as mean squares, has none exchanged.
+/// that is nearer in all of them than this share of the way, as mean squares, has none exchanged.
 constexpr double kNear = 0.1;
 
 /// How much more of its way than all actuators in the mean one is driven; NaN: it is not then.
@@ -113,24 +113,33 @@ class Distance {
                          double most_m2 = std::numeric_limits<double>::infinity()) {
     sum_m2_ = 0.0;
     count_ = 0.0;
+    worst_m2_ = 0.0;
     for (std::size_t s = 0; s < alone_.size(); ++s) {
       const Simulation simulation = simulators_[s].Run(hypothesis);
       if (!simulation.status.ok()) return std::numeric_limits<double>::quiet_NaN();
       shapes_m_[s] = simulation.samples.front().middle.state.x_m;
+      const double sum_before_m2 = sum_m2_;
+      const double count_before = count_;
       if (clouds_.empty()) {
         AddMarkers(simulation.samples.front(), telling_.samples[s]);
       } else {
         AddCloud(simulators_[s].Shapes(hypothesis, simulation).front(), s);
       }
+      if (count_ > count_before)
+        worst_m2_ = std::max(worst_m2_, (sum_m2_ - sum_before_m2) / (count_ - count_before));
       if (sum_m2_ > most_m2 * count_of_all_) return std::numeric_limits<double>::infinity();
     }
     count_of_all_ = count_;  // the same of all robots
     return sum_m2_ / count_;
   }
 
-  /// Mean square over the nodes between the two samples of the last robot that are most alike, m2.
+  /// The same of the worst sample of the last robot.
+  double WorstMeanSquare_m2() const { return worst_m2_; }
+
+  /// Mean square over the nodes between the two samples of the last robot that are most alike, as
+  /// far as distances count, m2.
   double BetweenMostAlike_m2() const {
-    double least_m2 = std::numeric_limits<double>::infinity();
+    double least_m2 = std::pow(kFarthestMarker_m, 2);
     for (std::size_t a = 0; a < shapes_m_.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         const double nodes = static_cast<double>(shapes_m_[a].size()) / 3.0;
@@ -172,6 +181,7 @@ class Distance {
   geometry::SurfaceIndex surface_;
   SurfaceClouds clouds_;
   std::vector<Eigen::VectorXd> shapes_m_;  ///< [samples] of the robot that was simulated last
+  double worst_m2_ = 0.0;
   double sum_m2_ = 0.0;
   double count_ = 0.0;
   double count_of_all_ = std::numeric_limits<double>::infinity();  ///< not known before the first
@@ -189,7 +199,8 @@ NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperi
   const double as_in_file_m2 = distance.MeanSquareOf_m2(as_in_file);
   nearest.sample_s =
       SecondsSince(begin) / std::max(1.0, static_cast<double>(telling.samples.size()));
-  if (as_in_file_m2 < kNear * distance.BetweenMostAlike_m2()) return nearest;
+  const double worst_m2 = distance.WorstMeanSquare_m2();
+  if (worst_m2 < kNear * distance.BetweenMostAlike_m2()) return nearest;
   double least_m2 = kClearlyLess * as_in_file_m2;
   std::vector<FaultModelPtr> far_off;
   MakeSwappedCables({.body = body, .observed = telling}, &far_off);
