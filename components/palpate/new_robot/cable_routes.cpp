@@ -54,15 +54,16 @@ void CheckName(const std::string& name, const std::string& what) {
   if (bad) throw InputError(what + ": write NAME=x,y,z;x,y,z;... with the pull point first");
 }
 
-/// Takes the unit from behind the last point, "x,y,z;x,y,z m"; `standard`: without one.
-double TakeUnit(std::vector<std::string>* pieces, double standard) {
+/// Takes the unit from behind the last point, "x,y,z;x,y,z m", in metres; `standard`: none is there.
+double TakeUnit(std::vector<std::string>* pieces, double standard, const std::string& what) {
   std::string& last = pieces->back();
   const size_t blank = last.find_last_of(" \t");
   if (blank == std::string::npos || !StartsAsNumber(last)) return standard;
   const std::string word = last.substr(blank + 1);
-  if (word.find_first_of("0123456789.,") != std::string::npos) return standard;
-  last = SplitText(last.substr(0, blank), ';').front();
-  return MetresPerUnit(word);
+  if (word.find_first_of("0123456789.,") != std::string::npos) return standard;  // "1, 2, 3"
+  last.erase(blank);
+  if (word == "m" || word == "cm" || word == "mm") return MetresPerUnit(word);
+  throw InputError(what + ": '" + Excerpt(word) + "' is no unit: m, cm or mm");
 }
 
 void RefuseEqualNeighbours(const CableRoute& route, const std::string& what) {
@@ -85,7 +86,7 @@ CableRoute ParseCable(const std::string& text, const SourceMesh& source, const B
   if (equals == std::string::npos) CheckName("", what);
   std::vector<Eigen::Vector3d> points_m;
   std::vector<std::string> pieces = SplitText(text.substr(equals + 1), ';');
-  const double metres_per_number = TakeUnit(&pieces, metres_per_unit);
+  const double metres_per_number = TakeUnit(&pieces, metres_per_unit, what);
   for (const std::string& piece : pieces) {
     if (piece.empty()) continue;
     if (StartsAsNumber(piece)) {
