@@ -54,7 +54,8 @@ void CheckName(const std::string& name, const std::string& what) {
   if (bad) throw InputError(what + ": write NAME=x,y,z;x,y,z;... with the pull point first");
 }
 
-/// Takes the unit from behind the last point, "x,y,z;x,y,z m", in metres; `standard`: none is there.
+/// Takes the unit from behind the last point, "x,y,z;x,y,z m", in metres; `standard`: none is
+/// there.
 double TakeUnit(std::vector<std::string>* pieces, double standard, const std::string& what) {
   std::string& last = pieces->back();
   const size_t blank = last.find_last_of(" \t");

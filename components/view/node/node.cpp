@@ -47,11 +47,11 @@ std::string SourceWord(const ViewPlan& plan, bool is_experiment) {
 PageGreeting GreetingOf(const NodeConfig& config, const ViewPlan& plan, bool is_experiment,
                         int domain_id) {
   const std::string source = SourceWord(plan, is_experiment);
-  return {.version = plan.version,
-          .source = source,
-          .source_name =
-              source == "live" ? "domain " + std::to_string(domain_id) : plan.source_name,
-          .read_only = !config.allow_control};
+  return {
+      .version = plan.version,
+      .source = source,
+      .source_name = source == "live" ? "domain " + std::to_string(domain_id) : plan.source_name,
+      .read_only = !config.allow_control};
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ void RobotSource::Show(std::int64_t stamp_ns) {
     feed_->Take(*dds::ToMesh({body.name, body.mesh_hash, body.mesh.nodes_m, body.mesh.cells,
                               body.boundary.DrawnTriangles()},
                              stamp_ns));
+    feed_->TellFixedNodes();
     has_told_mesh_ = true;
   }
   auto state = dds::ToMeshState(body.mesh.nodes_m.reshaped(), body.mesh_hash, stamp_ns);

@@ -10,7 +10,7 @@
 
 namespace palpate::view {
 
-/// Shows a robot file by itself: the undeformed body and its cables, before anything acts.
+/// Shows a robot file by itself: the undeformed body, where it is held, and its cables.
 class RobotSource {
  public:
   /// Both must outlive this.

@@ -93,7 +93,8 @@ TEST_F(NewRobotVerb, TakesCablesInAUnitOfTheirOwn) {
   DrawFinger();
   options_.known.unit = "mm";
   options_.known.cables = {"clicked=0.0000,0.0100,0.0200;0.0500,0.0100,0.0200;0.1,0.0100,0.0150 m",
-                           "blanks=0, 1, 1; 5, 1, 1 ; 10, 1, 1  cm", "file=0,10,0;50,10,0;100,10,5"};
+                           "blanks=0, 1, 1; 5, 1, 1 ; 10, 1, 1  cm",
+                           "file=0,10,0;50,10,0;100,10,5"};
   ASSERT_EQ(Run(), 0) << output_;
   const robot::RobotDescription robot = Written();
   ASSERT_EQ(robot.cables.size(), 3U);

@@ -36,6 +36,7 @@ TEST(RobotSource, ShowsTheUndeformedBodyWithItsCablesAndStiffness) {
   EXPECT_EQ(page.Last("mesh_state").at("counter"), 2);
   EXPECT_EQ(page.Last("mesh_state").at("hash"), page.Last("mesh").at("hash"));
   EXPECT_TRUE(page.Last("cable_paths").at("arrays").contains("top"));
+  EXPECT_EQ(page.Count("fixed_nodes"), 1U);
   EXPECT_EQ(page.Count("cables"), 0U) << "nobody has measured a tension";
 }
 

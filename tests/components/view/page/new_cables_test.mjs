@@ -5,7 +5,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 import {
-  boxes, closePages, openPage, overlaps, part, pixelsOf, startBrowser, until,
+  boxes, closePages, openPage, overlaps, part, pixelsOf, probeSkin, robotShare, startBrowser, until,
 } from './browser.mjs';
 import { startServer } from './fixture/server.mjs';
 import { distanceToSurface } from './fixture/surface_distance.mjs';
@@ -135,14 +135,27 @@ test('what is drawn stays when the server was away, and asks the server for noth
   }
 });
 
+test('shows the fixed nodes and the cables of the file, and nothing that is measured', async () => {
+  const page = await openRobotFile();
+  await until('a legend', async () =>
+    /cable of the robot file.*fixed/s.test(await part(page, 'legend').textContent()));
+  assert.match(await part(page, 'new-cables-list').textContent(), /north, west, south, east/);
+  for (const panel of ['forces', 'camera', 'processes', 'calibration', 'plot-forces']) {
+    assert.equal(await part(page, `panel-${panel}`).isVisible(), false, panel);
+  }
+  await page.done();
+});
+
 test('a live page has no panel of new cables, and a click probes', async () => {
   const live = await startServer();
   try {
     const page = await openPage(browser, live.url);
-    await until('forces', async () => (await part(page, 'force').count()) === 2);
+    await until('a robot', async () => robotShare(await pixelsOf(page)) > 0.05);
     assert.equal(await part(page, 'panel-new-cables').isVisible(), false);
     await page.keyboard.press('u');
     await page.keyboard.press('n');
+    await probeSkin(page);
+    assert.equal(await countOf(page), 0);
     await page.done();
   } finally {
     await live.stop();

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs tests of the live page with Node's test runner, in Debian's Chromium where --work is given. Packages of npm are
-installed in the work folder, not in the sources. Skips with the reason where Chromium, Node, npm or
-the network is missing."""
+"""Runs tests of the live page with Node's test runner, in Debian's Chromium where --work is given.
+Packages of npm are installed in that folder, not in the sources. Skips with the reason where
+Chromium, Node, npm or the network is missing."""
 
 import argparse
 import os

@@ -52,7 +52,9 @@ export class CableDrafts {
   whyNotName() {
     const { name } = this.current;
     if (name === '') return 'The cable needs a name.';
-    if (!NAME.test(name)) return 'A name has letters, digits, _ and -, and begins with neither sign.';
+    if (!NAME.test(name)) {
+      return 'A name has letters, digits, _ and -. It begins with a letter or digit.';
+    }
     const same = this.#finished.some((cable) => cable.name === name);
     return same ? `There is a cable ${name} already.` : '';
   }

@@ -33,7 +33,7 @@ export class SceneView {
   #tensions = new UpperEnd(0.1);
   #source = 'live';
   #unseen = false;  // some nodes have no value
-  #has = { robot: false, object: false, cables: false, tension: false };
+  #has = { robot: false, object: false, cables: false, tension: false, fixed: false };
   /** Takes a chosen point of the surface (Vector3, robot frame, m); null: it is probed.
    * @type {((point: Vector3) => void) | null} */
   onSurfacePoint = null;
@@ -43,6 +43,7 @@ export class SceneView {
     this.robot = new Robot();
     this.ghost = new Ghost();
     this.clouds = { robot: new Cloud('cloud', 1.3), object: new Cloud('object', 2) };
+    this.fixed = new Cloud('fixed', 6);
     this.markers = new Markers();
     this.cables = new Cables();
     this.drawn_cables = new DrawnCables();
@@ -54,8 +55,9 @@ export class SceneView {
     this.labels = new Labels(byId('labels'), this.stage, OBSTACLES);
     this.cables.group.visible = false;  // without the robot they say nothing
     this.stage.scene.add(this.floor.group, this.robot.group, this.ghost.group,
-      this.clouds.robot.points, this.clouds.object.points, this.markers.group, this.cables.group,
-      this.arrows.estimated.group, this.arrows.truth.group, this.drawn_cables.group, this.probe.dot);
+      this.clouds.robot.points, this.clouds.object.points, this.fixed.points, this.markers.group,
+      this.cables.group, this.arrows.estimated.group, this.arrows.truth.group,
+      this.drawn_cables.group, this.probe.dot);
     this.stage.onDrawn = () => this.labels.place();
     onClick(byId('view'), (at) => this.chooseAt(at));
     onTheme(() => {
@@ -79,6 +81,10 @@ export class SceneView {
         this.cables.setPaths(arrays);
         this.#has.cables = Object.keys(arrays).length > 0;
       },
+      fixed_nodes: ({ arrays }) => {
+        this.fixed.set(arrays.points_m);
+        this.#has.fixed = arrays.points_m.length > 0;
+      },
       truth_forces: ({ forces }) => this.arrows.setTruth(forces),
       forces: ({ forces }) => this.arrows.setEstimated(forces),
     };
@@ -94,7 +100,10 @@ export class SceneView {
       this.#latest.clear();
       this.#showForces();
     };
-    feed.on('hello', ({ source }) => (this.#source = source));
+    feed.on('hello', ({ source }) => {
+      this.#source = source;
+      this.fixed.points.visible = source === 'robot';
+    });
     feed.on('mesh', (message) => this.#takeMesh(message));
     feed.on('truth_mesh', (message) => {
       this.#truth_hash = message.hash;
@@ -240,6 +249,7 @@ export class SceneView {
       objects: this.#has.object && this.#shown.cloud,
       cables: this.#has.cables && this.#shown.cables,
       new_cables: this.drawn_cables.labels().length > 0,
+      fixed: this.#has.fixed && this.fixed.points.visible,
       is_file: this.#source === 'robot',
       highest_tension_N: this.#has.tension ? this.#tensions.value : 0,
       grid_m: this.floor.spacing_m,
