@@ -5,7 +5,8 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 import {
-  boxes, closePages, openPage, overlaps, part, pixelsOf, probeSkin, robotShare, startBrowser, until,
+  boxes, closePages, difference, openPage, overlaps, part, pixelsOf, probeSkin, robotShare,
+  settledPixels, startBrowser, until,
 } from './browser.mjs';
 import { startServer } from './fixture/server.mjs';
 import { distanceToSurface } from './fixture/surface_distance.mjs';
@@ -97,8 +98,15 @@ test('keys draw a second cable; its name is checked; both are copied', async () 
   await page.keyboard.press('n');
   assert.match(await part(page, 'new-cables-list').textContent(), /Drawn: cable_1/);
   await part(page, 'canvas').focus();
-  await page.keyboard.press('ArrowUp');
-  for (const key of ['p', '-', 'ArrowLeft', 'ArrowLeft', 'p']) await page.keyboard.press(key);
+  for (const keys of [['ArrowUp'], ['ArrowLeft', 'ArrowLeft']]) {
+    const first = await settledPixels(page);
+    for (const key of keys) await page.keyboard.press(key);
+    // A point is chosen in what is seen.
+    await until('a turned view', async () => difference(first, await pixelsOf(page)) > 0.01);
+    const count = await countOf(page);
+    await page.keyboard.press('p');
+    assert.equal(await countOf(page), count + 1, 'a point at the centre');
+  }
   const name = part(page, 'new-cable-name');
   assert.equal(await name.inputValue(), 'cable_2');
   await name.fill('$(id)');
