@@ -54,6 +54,19 @@ void CheckName(const std::string& name, const std::string& what) {
   if (bad) throw InputError(what + ": write NAME=x,y,z;x,y,z;... with the pull point first");
 }
 
+/// Takes the unit from behind the last point, "x,y,z;x,y,z m", in metres; `standard`: none is
+/// there.
+double TakeUnit(std::vector<std::string>* pieces, double standard, const std::string& what) {
+  std::string& last = pieces->back();
+  const size_t blank = last.find_last_of(" \t");
+  if (blank == std::string::npos || !StartsAsNumber(last)) return standard;
+  const std::string word = last.substr(blank + 1);
+  if (word.find_first_of("0123456789.,") != std::string::npos) return standard;  // "1, 2, 3"
+  last.erase(blank);
+  if (word == "m" || word == "cm" || word == "mm") return MetresPerUnit(word);
+  throw InputError(what + ": '" + Excerpt(word) + "' is no unit: m, cm or mm");
+}
+
 void RefuseEqualNeighbours(const CableRoute& route, const std::string& what) {
   for (Eigen::Index k = 1; k < route.path_m.cols(); ++k) {
     if (route.path_m.col(k) == route.path_m.col(k - 1)) {
@@ -73,10 +86,12 @@ CableRoute ParseCable(const std::string& text, const SourceMesh& source, const B
   CheckName(route.name, what);
   if (equals == std::string::npos) CheckName("", what);
   std::vector<Eigen::Vector3d> points_m;
-  for (const std::string& piece : SplitText(text.substr(equals + 1), ';')) {
+  std::vector<std::string> pieces = SplitText(text.substr(equals + 1), ';');
+  const double metres_per_number = TakeUnit(&pieces, metres_per_unit, what);
+  for (const std::string& piece : pieces) {
     if (piece.empty()) continue;
     if (StartsAsNumber(piece)) {
-      points_m.emplace_back(metres_per_unit * ParsePoint(piece, what));
+      points_m.emplace_back(metres_per_number * ParsePoint(piece, what));
       continue;
     }
     const Eigen::Matrix3Xd named_m = PointsOfName(piece, source, shape, what);

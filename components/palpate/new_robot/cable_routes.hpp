@@ -25,7 +25,8 @@ struct CableRoute {
 };
 
 /// "NAME=POINT;POINT;...", pull point first; a POINT is x,y,z in the unit of the mesh file or the
-/// name of a point of it. Throws InputError.
+/// name of a point of it. A unit behind the last x,y,z ("...;1,2,3 m") is that of all. Throws
+/// InputError.
 CableRoute ParseCable(const std::string& text, const SourceMesh& source, const BodyShape& shape,
                       double metres_per_unit);
 

@@ -84,6 +84,7 @@ void PrintNext(const RobotDraft& draft, const Rehearsal& rehearsal, const RobotF
   fmt::print("  palpate info {}\n", robot);
   fmt::print("  palpate solve {}{} --out {} --png\n", robot, actuation,
              (files.folder / "solved").string());
+  fmt::print("Cables by clicks on the body: palpate view {}\n", robot);
   fmt::print("The same robot and a camera without hardware:\n");
   fmt::print("  palpate simulate {} --scenario {} --out {}\n", robot, files.scenario.string(),
              data);
@@ -157,10 +158,11 @@ app::Verb NewRobotVerb() {
         arguments.Repeated(
             "--cable NAME=POINTS", &known.cables,
             "A cable: the point where it is pulled from, eyelets, the point where "
-            "it is attached, as \"x,y,z;x,y,z;...\" in the unit of the mesh file, or "
-            "as names of points of the mesh; two points in the body get eyelets "
-            "between them. Without it points, curves and straight channels of the "
-            "mesh");
+            "it is attached, as \"x,y,z;x,y,z;...\" in the unit of the mesh file or in "
+            "another one (\"...;x,y,z m\"), or as names of points of the mesh; two points "
+            "in the body get eyelets between them. `palpate view` of the robot file "
+            "makes this option of clicks on the body. Without it points, curves and "
+            "straight channels of the mesh");
         arguments.Option("--markers", &known.markers, 0, 200,
                          "Number of places for markers to suggest where the mesh names none");
         arguments.Flag("--yes", &options->yes, "Ask nothing and take each guess");

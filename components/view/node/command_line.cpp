@@ -37,6 +37,11 @@ bool IsExperiment(const std::filesystem::path& folder) {
          std::filesystem::exists(folder / "recording.yaml");
 }
 
+/// By its name: that it is one, its reader says.
+bool IsRobotFile(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
 /// forces.csv under any name, or in a folder; empty: there is none.
 std::filesystem::path ForcesFileOf(const std::filesystem::path& results) {
   if (std::filesystem::is_regular_file(results)) return results;
@@ -65,6 +70,10 @@ std::unique_ptr<ShownExperiment> ExperimentOf(const Command& command) {
 
 /// The robot file that is given, else that of a diagnosis, else that of the experiment.
 std::filesystem::path RobotFileOf(const Command& command, const ShownExperiment* shown) {
+  if (IsRobotFile(command.recording)) {
+    if (command.robot.empty()) return command.recording;
+    throw InputError("--robot: " + command.recording.string() + " is shown, a robot file itself");
+  }
   if (!command.robot.empty()) return app::FindRobotFile(command.robot);
   const std::filesystem::path diagnosed = command.results / kDiagnosedRobotFile;
   if (!command.results.empty() && std::filesystem::exists(diagnosed)) return diagnosed;
@@ -108,11 +117,12 @@ std::string SourceNameOf(const Command& command) {
 }
 
 std::vector<std::filesystem::path> RecordingFiles(const std::filesystem::path& recording) {
-  if (recording.empty() || IsExperiment(recording)) return {};
+  if (recording.empty() || IsExperiment(recording) || IsRobotFile(recording)) return {};
   std::vector<std::filesystem::path> files = recording::MessageFilesOf(recording);
   if (files.empty()) {
     throw InputError("--recording: " + recording.string() +
-                     " holds no recorded messages (.mcap, .db3)");
+                     " holds no recorded messages (.mcap, .db3), and is neither an experiment "
+                     "folder nor a robot file (.yaml)");
   }
   return files;
 }
@@ -128,8 +138,8 @@ void DeclareResults(app::Arguments& arguments, Command* command) {
 void DeclareView(app::Arguments& arguments, Command* command) {
   app::DeclareRobot(arguments, &command->robot, app::Need::kOptional);
   arguments.Option("--recording FILE", &command->recording,
-                   "Show recorded messages (.mcap, .db3, or a folder of them), or an experiment "
-                   "folder, instead of the running system");
+                   "Show recorded messages (.mcap, .db3, or a folder of them), an experiment "
+                   "folder or a robot file instead of the running system");
   DeclareResults(arguments, command);
 }
 
@@ -152,6 +162,7 @@ std::unique_ptr<ViewNode> MakeNode(const Command& command) {
   plan.source_name = SourceNameOf(command);
   plan.robot = KnownRobotOf(robot_file);
   plan.experiment = std::move(experiment);
+  plan.robot_alone = IsRobotFile(command.recording);
   plan.recorder = RecorderOf(command, robot_file);
   return std::make_unique<ViewNode>(
       command.config, std::move(plan), command.options.domain_id,

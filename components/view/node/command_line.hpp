@@ -14,7 +14,7 @@ namespace palpate::view {
 
 struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
-  std::filesystem::path recording;  ///< recorded messages, or an experiment folder
+  std::filesystem::path recording;  ///< recorded messages, an experiment folder or a robot file
   std::filesystem::path results;    ///< of `palpate estimate` or `palpate diagnose`
 };
 

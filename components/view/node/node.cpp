@@ -4,6 +4,7 @@
 #include "components/view/node/node.hpp"
 
 #include "components/view/access_settings.hpp"
+#include "libs/core/check.hpp"
 #include "libs/core/clock.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/monitor/snapshot_json.hpp"
@@ -36,15 +37,21 @@ PortSettings PortOf(const HttpConfig& config, int port, AccessRules rules) {
   return settings;
 }
 
+/// What the page calls the source of what it shows.
+std::string SourceWord(const ViewPlan& plan, bool is_experiment) {
+  if (is_experiment) return "experiment";
+  if (plan.robot_alone) return "robot";
+  return plan.recording.empty() ? "live" : "recording";
+}
+
 PageGreeting GreetingOf(const NodeConfig& config, const ViewPlan& plan, bool is_experiment,
                         int domain_id) {
-  const bool is_live = !is_experiment && plan.recording.empty();
-  return {.version = plan.version,
-          .source = is_live         ? "live"
-                    : is_experiment ? "experiment"
-                                    : "recording",
-          .source_name = is_live ? "domain " + std::to_string(domain_id) : plan.source_name,
-          .read_only = !config.allow_control};
+  const std::string source = SourceWord(plan, is_experiment);
+  return {
+      .version = plan.version,
+      .source = source,
+      .source_name = source == "live" ? "domain " + std::to_string(domain_id) : plan.source_name,
+      .read_only = !config.allow_control};
 }
 
 }  // namespace
@@ -123,6 +130,11 @@ std::string ViewNode::page_url() const {
 void ViewNode::ChooseSource(const ViewPlan& plan) {
   if (experiment_) {
     played_ = std::make_unique<ExperimentSource>(*experiment_, *robot_, &feed_);
+  } else if (plan.robot_alone) {
+    PALPATE_CHECK(robot_ != nullptr);
+    robot_source_ = std::make_unique<RobotSource>(*robot_, &feed_);
+    robot_source_->Show(dds::WallClockNs());
+    return;
   } else if (!plan.recording.empty()) {
     PlayRecording(plan);
   } else {
@@ -177,12 +189,12 @@ void ViewNode::Answer(const PageWish& wish) {
   if (const auto* probe = std::get_if<ProbeRequest>(&wish.request)) {
     page_->Reply(wish.client, feed_.Probe(*probe));
   } else if (const auto* record = std::get_if<RecordRequest>(&wish.request)) {
-    const std::string reason = played_ ? "no running system is shown" : recorder_.Set(record->on);
+    const std::string reason = live_ ? recorder_.Set(record->on) : "no running system is shown";
     if (!reason.empty()) page_->Refuse(wish.client, "record", reason);
     page_->Publish(recorder_.State());
   } else if (!played_) {
     const bool is_play = std::holds_alternative<PlayRequest>(wish.request);
-    page_->Refuse(wish.client, is_play ? "play" : "seek", "a running system is shown");
+    page_->Refuse(wish.client, is_play ? "play" : "seek", "nothing is played");
   } else {
     if (const auto* play = std::get_if<PlayRequest>(&wish.request)) played_->Play(*play);
     if (const auto* seek = std::get_if<SeekRequest>(&wish.request)) played_->Seek(*seek);
@@ -194,6 +206,7 @@ void ViewNode::Report() {
   page_->SetSnapshot(monitor::SnapshotJson(feed_.TellHealth(dds::WallClockNs())));
   page_->Publish(recorder_.State());
   if (played_) page_->Publish(played_->State());
+  if (robot_source_) robot_source_->Show(dds::WallClockNs());
   dds::HealthCounts counts;
   counts.received = feed_.received();
   counts.published = published_;

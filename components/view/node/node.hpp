@@ -23,6 +23,7 @@
 #include "components/view/node/page_hub.hpp"
 #include "components/view/node/recorder_control.hpp"
 #include "components/view/node/recording_source.hpp"
+#include "components/view/node/robot_source.hpp"
 #include "components/view/serve/web_server.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/node_log.hpp"
@@ -35,13 +36,14 @@ struct ViewPlan {
   std::string token;                             ///< that clients must give; empty: none
   std::string version;                           ///< of palpate
   std::vector<std::filesystem::path> recording;  ///< files to be shown instead of the domain
-  std::string source_name;                       ///< of the recording or experiment
+  std::string source_name;                       ///< of the recording, experiment or robot file
   std::unique_ptr<KnownRobot> robot;             ///< null: not known
   std::unique_ptr<ShownExperiment> experiment;   ///< shown instead of the domain; needs `robot`
+  bool robot_alone = false;  ///< `robot` is shown undeformed instead of the domain
   RecorderControl::Settings recorder;
 };
 
-/// Shows a running system, or a recording, to browsers and to Foxglove.
+/// Shows a running system, a recording or a robot file to browsers and to Foxglove.
 class ViewNode {
  public:
   /// Throws InputError for bad settings and recordings, RunError where DDS or the network refuses.
@@ -99,6 +101,7 @@ class ViewNode {
   RecorderControl recorder_;
   std::unique_ptr<LiveSource> live_;
   std::unique_ptr<PlayedSource> played_;
+  std::unique_ptr<RobotSource> robot_source_;
   bool watched_ = false;
   std::unique_ptr<FoxgloveRecording> foxglove_recording_;
   std::unique_ptr<FoxgloveTopics> foxglove_topics_;

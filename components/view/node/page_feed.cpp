@@ -108,6 +108,14 @@ void PageFeed::TellCables() {
   outputs_.publish(BinaryMessage("cable_paths", frame.Bytes()));
 }
 
+void PageFeed::TellFixedNodes() {
+  if (robot_ == nullptr) return;
+  const Eigen::Matrix3Xf points_m = robot_->FixedSurfaceNodes_m();
+  BinaryFrame frame("fixed_nodes", {{"robot", robot_->body().name}});
+  frame.Add("points_m", std::span(points_m.data(), static_cast<std::size_t>(points_m.size())));
+  outputs_.publish(BinaryMessage("fixed_nodes", frame.Bytes()));
+}
+
 void PageFeed::Take(const idl::palpate_msgs::MeshState& message) {
   const double now_s = Count("/robot/mesh_state", message.counter);
   builder_.Add(message, now_s);

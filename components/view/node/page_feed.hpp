@@ -60,6 +60,8 @@ class PageFeed {
   void Take(const idl::tf2_msgs::TFMessage& message);
   void Take(const idl::palpate_msgs::MarkerArray3& message);
   void TakeMarkers(ShownMarkers markers);
+  /// Tells the page where the robot file holds the body.
+  void TellFixedNodes();
   /// Points near the robot, in its frame.
   void TakePoints(const rgbd::SensedCloud& points, std::int64_t stamp_ns);
   void TakeRobotCloud(const idl::sensor_msgs::PointCloud2& message);

@@ -20,7 +20,7 @@ namespace palpate::view {
 /// What the page is told first.
 struct PageGreeting {
   std::string version;
-  std::string source = "live";  ///< "live", "recording" or "experiment"
+  std::string source = "live";  ///< "live", "recording", "experiment" or "robot"
   std::string source_name;
   bool read_only = true;
   bool has_probe = true;

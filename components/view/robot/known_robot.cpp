@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
@@ -49,6 +50,16 @@ std::map<std::string, Eigen::Matrix3Xf> KnownRobot::CablePaths(const Eigen::Vect
     paths_m[model_.traits(cable).name] = model_.cable(cable).Path_m(x_m).cast<float>();
   }
   return paths_m;
+}
+
+Eigen::Matrix3Xf KnownRobot::FixedSurfaceNodes_m() const {
+  const Eigen::Matrix3Xi triangles = body().boundary.DrawnTriangles();
+  std::set<int> fixed;
+  for (const int node : triangles.reshaped()) {
+    if (body().fixed.col(node).all()) fixed.insert(node);
+  }
+  const std::vector<int> nodes(fixed.begin(), fixed.end());
+  return body().mesh.nodes_m(Eigen::all, nodes).cast<float>();
 }
 
 bool KnownRobot::SetYoungsModulus(const std::string& part, double youngs_modulus_Pa) {

@@ -41,6 +41,9 @@ class KnownRobot {
   /// `x_m` [3n]; m, robot frame.
   std::map<std::string, Eigen::Matrix3Xf> CablePaths(const Eigen::VectorXd& x_m) const;
 
+  /// [3 x nodes] undeformed nodes of the surface that do not move in any direction; m, robot frame.
+  Eigen::Matrix3Xf FixedSurfaceNodes_m() const;
+
   /// Young's modulus of the part of that name ("body", or a region); others are passed over.
   /// Returns whether it has changed.
   bool SetYoungsModulus(const std::string& part, double youngs_modulus_Pa);

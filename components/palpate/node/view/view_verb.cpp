@@ -48,12 +48,13 @@ int Show(view::Command* command) {
 }  // namespace
 
 app::Verb ViewVerb() {
-  return {"view", "Show the running system, a recording or an experiment in the browser",
+  return {"view", "Show the running system, a recording, an experiment or a robot in the browser",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto command = std::make_shared<view::Command>();
             arguments.Positional("SOURCE", &command->recording,
-                                 "Recorded messages (.mcap, .db3, or a folder of them), or an "
-                                 "experiment folder; without it the running system",
+                                 "Recorded messages (.mcap, .db3, or a folder of them), an "
+                                 "experiment folder, or a robot file (.yaml), on which cables are "
+                                 "drawn by clicks; without it the running system",
                                  app::Need::kOptional);
             view::DeclareResults(arguments, command.get());
             app::DeclareRobotOption(arguments, &command->robot,

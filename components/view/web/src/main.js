@@ -8,6 +8,7 @@ import { CablesPanel } from './panels/cables.js';
 import { CalibrationPanel } from './panels/calibration.js';
 import { CameraPanel } from './panels/camera.js';
 import { ForcesPanel } from './panels/forces.js';
+import { NewCablesPanel } from './panels/new_cables.js';
 import { PlayerBar } from './panels/player.js';
 import { ProcessesPanel } from './panels/processes.js';
 import { RecorderButton } from './panels/recorder.js';
@@ -21,7 +22,9 @@ import { Freshness } from './ui/freshness.js';
 import { startKeys } from './ui/keys.js';
 import { startTheme, switchTheme } from './ui/theme.js';
 
-const SOURCES = { live: 'live', recording: 'recording', experiment: 'experiment' };
+const SOURCES = { live: 'live', recording: 'recording', experiment: 'experiment',
+  robot: 'robot file' };
+const FIRST_WORDS = { experiment: 'No markers here', robot: 'Undeformed, nothing acts' };
 const LINK_EVERY_MS = 500;
 
 startTheme();
@@ -38,6 +41,7 @@ new ForcesPanel(feed, colors);
 new ProcessesPanel(feed);
 new CablesPanel(feed);
 new CalibrationPanel(feed);
+const new_cables = new NewCablesPanel(feed, view, (text) => banner.tell(text));
 new RecorderButton(feed, send, (text) => banner.tell(text));
 new Plots(feed, colors);
 
@@ -74,25 +78,25 @@ for (const mode of ['displacement', 'residual', 'stiffness']) {
 }
 byId('theme').addEventListener('click', switchTheme);
 startKeys({
-  view, camera, switchTheme, toggle, player,
+  view, camera, switchTheme, toggle, player, new_cables,
   pauseOrGoOn: () => (player.isThere() ? player.pauseOrGoOn() : hold(!feed.held)),
 });
 
 feed.on('hello', ({ source, source_name, version, read_only }) => {
   setText(byId('source'), [SOURCES[source] ?? source, source === 'live' ? '' : source_name]
     .filter(Boolean).join(' '));
-  byId('source').dataset.source = source;
+  byId('source').dataset.source = document.documentElement.dataset.source = source;
   byId('source').title =
     `palpate ${version}, ${source_name}${read_only ? ', this page may only read' : ''}`;
   const live = source === 'live';
   if (view) {
     setText(byId('scene-empty-text'), live
       ? 'Waiting for the robot, from palpate-force-estimation.'
-      : `This ${source} has no robot here.`);
+      : `This ${SOURCES[source] ?? source} has no robot here.`);
   }
   setText(byId('camera-empty'), live ? 'Waiting for images of the camera.'
     : `This ${source} has no images here.`);
-  verdict.say(source === 'experiment' ? 'No markers here' : 'Waiting for forces', 'calm');
+  verdict.say(FIRST_WORDS[source] ?? 'Waiting for forces', 'calm');
 });
 feed.on('mesh', ({ robot }) => {
   setText(byId('robot'), robot.replaceAll('_', ' '));

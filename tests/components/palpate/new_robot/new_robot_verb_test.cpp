@@ -89,6 +89,32 @@ TEST_F(NewRobotVerb, WritesARobotThatInfoAndSolveTake) {
   EXPECT_GT(std::filesystem::file_size(options_.out / "robot.png"), 10000U);
 }
 
+TEST_F(NewRobotVerb, TakesCablesInAUnitOfTheirOwn) {
+  DrawFinger();
+  options_.known.unit = "mm";
+  options_.known.cables = {"clicked=0.0000,0.0100,0.0200;0.0500,0.0100,0.0200;0.1,0.0100,0.0150 m",
+                           "blanks=0, 1, 1; 5, 1, 1 ; 10, 1, 1  cm",
+                           "file=0,10,0;50,10,0;100,10,5"};
+  ASSERT_EQ(Run(), 0) << output_;
+  const robot::RobotDescription robot = Written();
+  ASSERT_EQ(robot.cables.size(), 3U);
+  Eigen::Matrix3d clicked_m, blanks_m, file_m;
+  clicked_m << 0.0, 0.05, 0.1, 0.01, 0.01, 0.01, 0.02, 0.02, 0.015;
+  blanks_m << 0.0, 0.05, 0.1, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01;
+  file_m << 0.0, 0.05, 0.1, 0.01, 0.01, 0.01, 0.0, 0.0, 0.005;
+  EXPECT_TRUE(robot.cables[0].path_m.isApprox(clicked_m, 1e-9)) << robot.cables[0].path_m;
+  EXPECT_TRUE(robot.cables[1].path_m.isApprox(blanks_m, 1e-9)) << robot.cables[1].path_m;
+  EXPECT_TRUE(robot.cables[2].path_m.isApprox(file_m, 1e-9)) << robot.cables[2].path_m;
+  EXPECT_THAT(output_, HasSubstr("Cables by clicks on the body: palpate view "));
+}
+
+TEST_F(NewRobotVerb, RefusesAnUnknownUnitOfACable) {
+  DrawFinger();
+  options_.known.cables = {"up=0,1,1;4,1,1 inch"};
+  EXPECT_THAT(MessageOf([&] { Run(); }), HasSubstr("'inch' is no unit: m, cm or mm"));
+  EXPECT_FALSE(std::filesystem::exists(options_.out));
+}
+
 TEST_F(NewRobotVerb, SaysEachGuessWithItsReasonAndMarksItInTheFile) {
   DrawFinger();
   ASSERT_EQ(Run(), 0);

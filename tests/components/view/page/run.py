@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs tests of the live page in Debian's Chromium with Node's test runner. Packages of npm are
-installed in the work folder, not in the sources. Skips with the reason where Chromium, Node, npm or
-the network is missing."""
+"""Runs tests of the live page with Node's test runner, in Debian's Chromium where --work is given.
+Packages of npm are installed in that folder, not in the sources. Skips with the reason where
+Chromium, Node, npm or the network is missing."""
 
 import argparse
 import os
@@ -56,14 +56,20 @@ def install(folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--work", type=pathlib.Path, required=True, help="folder for packages")
+    parser.add_argument("--work", type=pathlib.Path,
+                        help="folder for packages; without it the tests need no browser")
+    parser.add_argument("--programs", type=pathlib.Path, help="folder of palpate's programs")
     parser.add_argument("tests", nargs="+", help="files of this folder")
     arguments = parser.parse_args()
-    need(("chromium", "chromium"), ("node", "nodejs"), ("npm", "npm"))
-    install(arguments.work)
+    need(("node", "nodejs"))
+    if arguments.work:
+        need(("chromium", "chromium"), ("npm", "npm"))
+        install(arguments.work)
     environment = os.environ | {"PALPATE_SOURCE_DIR": str(HERE.parents[3])}
+    if arguments.programs:
+        environment["PALPATE_PROGRAM_DIR"] = str(arguments.programs.resolve())
     command = ["node", "--test", "--test-concurrency=1", "--test-reporter=spec", *arguments.tests]
-    sys.exit(subprocess.run(command, cwd=arguments.work, env=environment).returncode)
+    sys.exit(subprocess.run(command, cwd=arguments.work or HERE, env=environment).returncode)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import { Arrivals } from './arrivals.js';
  * feels. */
 const NEVER_HELD = new Set([
   'hello', 'client', 'health', 'recorder', 'player', 'probe', 'refused', 'mesh', 'truth_mesh',
-  'cable_paths',
+  'cable_paths', 'fixed_nodes',
 ]);
 
 /** Passes messages to who asked for their kind, and counts when they came. */

@@ -13,6 +13,7 @@ const NOTHING_WRONG = new Set(['ok', 'no_contact']);
 const EMPTY = {
   live: 'Waiting for forces of palpate-force-estimation.',
   recording: 'No forces at this place of the recording.',
+  robot: 'A robot file has no forces.',
   experiment: 'No estimate is shown: give forces.csv of palpate estimate as --results.',
 };
 

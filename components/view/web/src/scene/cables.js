@@ -31,10 +31,8 @@ export class Cables {
       this.#paint();
     }
     for (const [name, points_m] of Object.entries(paths)) {
-      const segments = [];
-      for (let i = 0; i + 5 < points_m.length; i += 3) segments.push(...points_m.slice(i, i + 6));
       const { geometry } = this.#lines.get(name);
-      geometry.setPositions(segments);  // it makes new buffers
+      geometry.setPositions(segmentsOf(points_m));  // it makes new buffers
     }
   }
 
@@ -54,7 +52,14 @@ export class Cables {
   }
 }
 
-function makeLine() {
+/** Both ends of each straight piece of a path. @param {ArrayLike<number>} points_m 3 for each */
+export function segmentsOf(points_m) {
+  const segments = [];
+  for (let i = 0; i + 5 < points_m.length; i += 3) segments.push(...points_m.slice(i, i + 6));
+  return segments;
+}
+
+export function makeLine() {
   const line = new LineSegments2(new LineSegmentsGeometry(),
     new LineMaterial({ linewidth: WIDTH_PX }));
   line.frustumCulled = false;

@@ -7,8 +7,9 @@ import { millimetres, round } from '../ui/format.js';
 /** What is drawn, and nothing else.
  * @param {{forces: boolean, truth: boolean, known_loads: boolean, cloud: boolean,
  *     objects: boolean, ghost: boolean, markers: number, residual_factor: number,
- *     cables: boolean, highest_tension_N: number, grid_m: number,
- *     metres_per_newton: number, unseen: boolean}} what */
+ *     cables: boolean, is_file: boolean, new_cables: boolean, fixed: boolean,
+ *     highest_tension_N: number, grid_m: number, metres_per_newton: number,
+ *     unseen: boolean}} what */
 export function showLegend(what) {
   const rows = [];
   const add = (mark, text) =>
@@ -29,8 +30,11 @@ export function showLegend(what) {
   if (what.cables) {
     const known = what.highest_tension_N > 0;
     add(known ? 'mark-tension' : 'mark-cable',
-      known ? `cable, 0 to ${round(what.highest_tension_N)} N` : 'cable, tension unknown');
+      known ? `cable, 0 to ${round(what.highest_tension_N)} N`
+        : what.is_file ? 'cable of the robot file' : 'cable, tension unknown');
   }
+  if (what.fixed) add('mark-fixed', 'fixed');
+  if (what.new_cables) add('mark-new-cable', 'new cable, drawn by clicks');
   if (what.unseen) add('mark-unseen', 'not measured');
   if (what.grid_m > 0) add('mark-grid', `grid ${round(1000 * what.grid_m)} mm`);
   replaceIfChanged(byId('legend'), ...rows);

@@ -8,13 +8,14 @@ import { Cables } from './cables.js';
 import { Cloud } from './cloud.js';
 import { ColorBar } from './colorbar.js';
 import { Coloring, MODES } from './coloring.js';
+import { DrawnCables } from './drawn_cables.js';
 import { Floor } from './floor.js';
 import { ForceArrows } from './forces.js';
 import { Ghost } from './ghost.js';
 import { Labels } from './labels.js';
 import { Markers } from './markers.js';
 import { showLegend } from './legend.js';
-import { nodeAt, onClick } from './pick.js';
+import { nodeAt, onClick, pointAt } from './pick.js';
 import { Probe } from './probe.js';
 import { Robot } from './robot.js';
 import { UpperEnd } from './scale.js';
@@ -30,17 +31,22 @@ export class SceneView {
   #radius = 0.15;
   #shown = { cloud: true, ghost: true, cables: true };
   #tensions = new UpperEnd(0.1);
-  #live = true;  // an experiment may have no estimates at all
+  #source = 'live';
   #unseen = false;  // some nodes have no value
-  #has = { robot: false, object: false, cables: false, tension: false };
+  #has = { robot: false, object: false, cables: false, tension: false, fixed: false };
+  /** Takes a chosen point of the surface (Vector3, robot frame, m); null: it is probed.
+   * @type {((point: Vector3) => void) | null} */
+  onSurfacePoint = null;
 
   constructor(feed, send, contact_colors) {
     this.stage = new Stage(byId('view'));
     this.robot = new Robot();
     this.ghost = new Ghost();
     this.clouds = { robot: new Cloud('cloud', 1.3), object: new Cloud('object', 2) };
+    this.fixed = new Cloud('fixed', 6);
     this.markers = new Markers();
     this.cables = new Cables();
+    this.drawn_cables = new DrawnCables();
     this.floor = new Floor();
     this.arrows = new ForceArrows(contact_colors);
     this.coloring = new Coloring();
@@ -49,10 +55,11 @@ export class SceneView {
     this.labels = new Labels(byId('labels'), this.stage, OBSTACLES);
     this.cables.group.visible = false;  // without the robot they say nothing
     this.stage.scene.add(this.floor.group, this.robot.group, this.ghost.group,
-      this.clouds.robot.points, this.clouds.object.points, this.markers.group, this.cables.group,
-      this.arrows.estimated.group, this.arrows.truth.group, this.probe.dot);
+      this.clouds.robot.points, this.clouds.object.points, this.fixed.points, this.markers.group,
+      this.cables.group, this.arrows.estimated.group, this.arrows.truth.group,
+      this.drawn_cables.group, this.probe.dot);
     this.stage.onDrawn = () => this.labels.place();
-    onClick(byId('view'), (at) => this.probeAt(at));
+    onClick(byId('view'), (at) => this.chooseAt(at));
     onTheme(() => {
       this.#showForces();
       this.stage.draw();
@@ -74,6 +81,10 @@ export class SceneView {
         this.cables.setPaths(arrays);
         this.#has.cables = Object.keys(arrays).length > 0;
       },
+      fixed_nodes: ({ arrays }) => {
+        this.fixed.set(arrays.points_m);
+        this.#has.fixed = arrays.points_m.length > 0;
+      },
       truth_forces: ({ forces }) => this.arrows.setTruth(forces),
       forces: ({ forces }) => this.arrows.setEstimated(forces),
     };
@@ -89,7 +100,10 @@ export class SceneView {
       this.#latest.clear();
       this.#showForces();
     };
-    feed.on('hello', ({ source }) => (this.#live = source !== 'experiment'));
+    feed.on('hello', ({ source }) => {
+      this.#source = source;
+      this.fixed.points.visible = source === 'robot';
+    });
     feed.on('mesh', (message) => this.#takeMesh(message));
     feed.on('truth_mesh', (message) => {
       this.#truth_hash = message.hash;
@@ -118,8 +132,20 @@ export class SceneView {
   }
 
   /** @param {{x: number, y: number}} at of the canvas, -1 to 1 */
-  probeAt(at) {
+  chooseAt(at) {
+    if (this.onSurfacePoint) {
+      const point = pointAt(this.stage, this.robot, at);
+      if (point) this.onSurfacePoint(point);
+      return;
+    }
     this.probe.choose(nodeAt(this.stage, this.robot, at), this.robot.surface, this.#radius);
+    this.stage.draw();
+  }
+
+  /** @param {import('../cables/cable_drafts.js').CableDrafts} drafts */
+  showDrafts(drafts) {
+    this.drawn_cables.set(drafts, this.#radius);
+    this.#showForces();
     this.stage.draw();
   }
 
@@ -135,6 +161,7 @@ export class SceneView {
     this.coloring.set('displacement', this.robot.surface.displacements());
     this.coloring.set('residual', null);
     this.coloring.set('stiffness', arrays.stiffness_Pa ?? null);
+    if (this.#source === 'robot') this.coloring.mode = 'stiffness';
     if (is_new) this.#fit(arrays.rest_m);
     byId('scene-empty').hidden = true;
     this.cables.group.visible = this.#shown.cables;
@@ -202,11 +229,17 @@ export class SceneView {
     this.cables.setTensions(tensions, this.#tensions.value);
   }
 
+  /** An experiment may have no estimates at all. */
+  #hasForces() {
+    return ['live', 'recording'].includes(this.#source) || this.arrows.hasEstimates();
+  }
+
   #showForces() {
-    this.labels.set(this.arrows.show(this.#radius, performance.now()));
+    this.labels.set([...this.arrows.show(this.#radius, performance.now()),
+      ...this.drawn_cables.labels()]);
     const ghost = this.#shown.ghost && this.ghost.surface !== null;
     showLegend({
-      forces: this.robot.surface !== null && (this.#live || this.arrows.hasEstimates()),
+      forces: this.robot.surface !== null && this.#hasForces(),
       truth: this.ghost.surface !== null && !this.arrows.hasKnownLoads(),
       known_loads: this.arrows.hasKnownLoads(),
       ghost,
@@ -215,6 +248,9 @@ export class SceneView {
       cloud: this.#has.robot && this.#shown.cloud,
       objects: this.#has.object && this.#shown.cloud,
       cables: this.#has.cables && this.#shown.cables,
+      new_cables: this.drawn_cables.labels().length > 0,
+      fixed: this.#has.fixed && this.fixed.points.visible,
+      is_file: this.#source === 'robot',
       highest_tension_N: this.#has.tension ? this.#tensions.value : 0,
       grid_m: this.floor.spacing_m,
       metres_per_newton: this.arrows.metresPerNewton(this.#radius),

@@ -12,10 +12,11 @@ const OWN_KEYS = {
   SUMMARY: new Set([' ', 'Enter']),
   INPUT: 'all',
   SELECT: 'all',
+  TEXTAREA: 'all',
 };
 
 /** Keys of the page and what they do, in the order of the list that `?` shows. */
-export function startKeys({ view, camera, switchTheme, toggle, pauseOrGoOn, player }) {
+export function startKeys({ view, camera, switchTheme, toggle, pauseOrGoOn, player, new_cables }) {
   const keys = [
     [[' '], 'space', 'hold the display; pause a player', pauseOrGoOn],
     [['1'], '1', 'colour by displacement', () => view?.setMode('displacement')],
@@ -31,8 +32,10 @@ export function startKeys({ view, camera, switchTheme, toggle, pauseOrGoOn, play
     [['ArrowDown'], '', '', () => view?.stage.orbit(0, -TURN_RAD)],
     [['+', '='], '+ −', 'zoom', () => view?.stage.zoom(0.88)],
     [['-'], '', '', () => view?.stage.zoom(1 / 0.88)],
-    [['p'], 'p', 'probe the surface at the centre (or click it)',
-      () => view?.probeAt({ x: 0, y: 0 })],
+    [['p'], 'p', 'choose the point of the surface at the centre (or click it)',
+      () => view?.chooseAt({ x: 0, y: 0 })],
+    [['u'], 'u', 'robot file: take back the last point of a cable', () => new_cables.undo()],
+    [['n'], 'n', 'robot file: next cable', () => new_cables.finish()],
     [['Escape'], 'Esc', 'close', () => view?.closeProbe()],
     [['d'], 'd', 'colour or depth image', () => camera.other()],
     [['s'], 's', 'segments over the image', () => camera.toggleOverlay()],
