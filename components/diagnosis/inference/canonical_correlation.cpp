@@ -29,9 +29,9 @@ Eigen::MatrixXd Whitener(const Eigen::MatrixXd& S) {
 
 }  // namespace
 
-/// Of effects E and F = J of the faults, with the weighted columns C of the others: what these leave
-/// of E is M E, M = I - C A^-1 C', A = I + C' C. All products follow from H = J' J:
-/// E' M M F = E' F - (C' E)' V - U' V, with U = A^-1 C' E and V = A^-1 C' F.
+/// Of effects E and F = J of the faults, with the weighted columns C of the others: what these
+/// leave of E is M E, M = I - C A^-1 C', A = I + C' C. All products follow from H = J' J: E' M M F
+/// = E' F - (C' E)' V - U' V, with U = A^-1 C' E and V = A^-1 C' F.
 double CanonicalCorrelation(const HypothesisSet& hypotheses, const Information& data,
                             const Eigen::VectorXd& scale, int a, int b) {
   const GaussianPrior prior = hypotheses.PriorWith({}, scale);
@@ -46,8 +46,8 @@ double CanonicalCorrelation(const HypothesisSet& hypotheses, const Information& 
   A.diagonal().array() += 1.0;
   const Eigen::MatrixXd by_others = sigma.asDiagonal() * data.H(free, own);
   const Eigen::MatrixXd explained = linalg::Cholesky(A).Solve(by_others);
-  const Eigen::MatrixXd left = data.H(own, own) - by_others.transpose() * explained -
-                               explained.transpose() * explained;
+  const Eigen::MatrixXd left =
+      data.H(own, own) - by_others.transpose() * explained - explained.transpose() * explained;
   const Eigen::Index of_a = hypotheses.count(a);
   const Eigen::Index of_b = hypotheses.count(b);
   const Eigen::MatrixXd whiten_a = Whitener(left.topLeftCorner(of_a, of_a));

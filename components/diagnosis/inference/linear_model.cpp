@@ -198,8 +198,7 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
     const Eigen::Index count = rows.J_y.rows();
     model.J.middleRows(first, count) = rows.J_y.leftCols(z.size());
     model.y.segment(first, count) = rows.J_y.col(z.size());
-    model.sample_of_row.insert(model.sample_of_row.end(), rows.samples.begin(),
-                               rows.samples.end());
+    model.sample_of_row.insert(model.sample_of_row.end(), rows.samples.begin(), rows.samples.end());
     model.coordinate_of_row.insert(model.coordinate_of_row.end(), rows.coordinates.begin(),
                                    rows.coordinates.end());
     first += count;
