@@ -15,7 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kOffset_m = 1e-3;
+constexpr double kZeroOffset_m = 1e-3;
 
 geometry::RigidTransform BackPose() { return LookAt({-0.343, 0.198, 0.275}, {0.0, 0.0, 0.065}); }
 
@@ -25,7 +25,7 @@ geometry::RigidTransform ToRigid(const Eigen::Isometry3d& T) {
 
 class LiveClouds : public ::testing::Test {
  protected:
-  /// Three settings of actuators that count from kOffset_m, seen by both cameras.
+  /// Three settings of actuators that count from kZeroOffset_m, seen by both cameras.
   LiveClouds() {
     back_.name = "back";
     for (const std::vector<double>& told_m :
@@ -33,7 +33,7 @@ class LiveClouds : public ::testing::Test {
                                           {0.010, 0.004, 0.004, 0.011},
                                           {0.005, 0.012, 0.006, 0.006}}) {
       std::vector<double> truth_m = told_m;
-      for (double& pull_m : truth_m) pull_m += kOffset_m;
+      for (double& pull_m : truth_m) pull_m += kZeroOffset_m;
       const std::string name = "frame " + std::to_string(job_.clouds.size() + 1);
       job_.clouds.push_back(SeeCloud(*model_, TruePose(), name, told_m, truth_m, 0.1, random_));
       back_.clouds.push_back(SeeCloud(*model_, BackPose(), name, told_m, truth_m, 0.1, random_));
@@ -68,7 +68,7 @@ TEST_F(LiveClouds, FindBothPosesAndTheActuatorsOfOneRobot) {
   EXPECT_EQ(found.depth_bias->picture, *back_.picture);
   ASSERT_EQ(result.file.drives.size(), 4u) << "those of the first fit";
   for (const robot::CalibratedDrive& drive : result.file.drives) {
-    EXPECT_NEAR(drive.drive.offset_m, kOffset_m, 0.4e-3) << drive.cable;
+    EXPECT_NEAR(drive.drive.offset_m, kZeroOffset_m, 0.4e-3) << drive.cable;
   }
   EXPECT_EQ(model_->body().materials[0].youngs_modulus_Pa, modulus_Pa);
   EXPECT_EQ(model_->drives().at(0).offset_m, 0.0);
