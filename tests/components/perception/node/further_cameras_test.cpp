@@ -251,11 +251,11 @@ class CamerasOfTwoHosts : private OtherHost, public FurtherCameraNodeTest {
 /// The second camera's host is 2.5 s ahead. Frames wait until that is measured, then those of one
 /// instant are joined.
 TEST_F(CamerasOfTwoHosts, FramesAreJoinedByTheClockOfTheFirst) {
-  constexpr std::int64_t kPeriod_ns = 100'000'000;
+  constexpr std::int64_t kApart_ns = 100'000'000;
   Start(1.0);
   std::int64_t stamp_ns = 0;
   const auto ask = [&] {
-    stamp_ns += kPeriod_ns;
+    stamp_ns += kApart_ns;
     // In this order the frame has this stamp, even where the second image comes too late.
     SendFront(stamp_ns);
     SendBack(stamp_ns + kAhead_ns);
