@@ -42,8 +42,7 @@ class CalibrationInput {
 };
 
 /// The message as a calibration file. kInvalidInput for numbers that are not finite, standard
-/// errors below 0, moduli not above 0, a pose that is no rigid motion, and a further camera that is
-/// there twice.
+/// errors below 0, moduli not above 0, and a pose that is no rigid motion.
 Status FromCalibration(const idl::palpate_msgs::Calibration& message,
                        robot::CalibrationFile* calibration);
 

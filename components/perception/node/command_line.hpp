@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -12,9 +11,7 @@
 
 namespace palpate::perception {
 
-struct Command : app::NodeCommand<NodeConfig> {
-  std::filesystem::path calibration;  ///< empty: poses are those of the settings
-};
+using Command = app::NodeCommand<NodeConfig>;
 
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);
