@@ -32,8 +32,8 @@ struct ForceNewtonTuning {
   double damping_growth = 30.0;
   /// Failures in a row before the fit gives up.
   int most_failures = 8;
-  /// Share of the weighted residual that a continuation step must take away. Smaller: more steps
-  /// where the model is unstable near the rows, for nothing.
+  /// Share of the weighted residual that a continuation step must take away, else it is the last.
+  /// Smaller: more steps where the model is unstable near the rows, for nothing.
   double least_gain = 0.01;
 };
 constexpr ForceNewtonTuning kForceNewtonTuning;
@@ -134,9 +134,9 @@ const ForceFit& ForceNewton::Fit(const RowTargets& targets,
 
 /// Newton's method with a frozen factor where one is kept. Where it diverges, exact steps from the
 /// start: steps with the factor of another state may lead to where exact ones do not converge.
-/// Where these diverge, too, the inputs are followed under the forces of the start: inputs and
-/// forces that both change far from an equilibrium lead astray. After that continuation steps, each
-/// followed by exact steps.
+/// Where these diverge, too, and continuation steps are allowed, the inputs are followed under the
+/// forces of the start: inputs and forces that both change far from an equilibrium lead astray.
+/// After that continuation steps, each followed by exact steps.
 Status ForceNewton::FitWithContinuation() {
   Status status = RunNewton(/*exact_only=*/false);
   if (Diverged(status) && fit_.chord_steps > 0) {
@@ -144,18 +144,19 @@ Status ForceNewton::FitWithContinuation() {
     status = RunNewton(/*exact_only=*/true);
   }
   if (Diverged(status) && !start_.balanced && last_good_.valid) start_ = last_good_;
-  if (Diverged(status)) {
+  if (Diverged(status) && most_continuation_steps_ > 0) {
     *frame_.state = start_;
-    if (Balance(start_.lambda_f_N, &input_solver_, frame_.state).ok()) {
-      start_ = *frame_.state;
-      status = RunNewton(/*exact_only=*/true);
-    }
+    const bool balanced = Balance(start_.lambda_f_N, &input_solver_, frame_.state).ok();
+    const bool moved = balanced && frame_.state->x_m != start_.x_m;
+    if (balanced) start_ = *frame_.state;
+    if (moved) status = RunNewton(/*exact_only=*/true);
   }
-  double damping = 0.0;
-  while (Diverged(status) && fit_.continuation_steps < most_continuation_steps_) {
+  Continuation continuation;
+  while (Diverged(status) && continuation.gains &&
+         fit_.continuation_steps < most_continuation_steps_) {
     *frame_.state = start_;
     ++fit_.continuation_steps;
-    if (Status moved = ContinueAlongEquilibria(&damping); !moved.ok()) return moved;
+    if (Status moved = ContinueAlongEquilibria(&continuation); !moved.ok()) return moved;
     start_ = *frame_.state;
     status = RunNewton(/*exact_only=*/true);
   }
@@ -338,8 +339,8 @@ double ForceNewton::StepFraction(const ModelState& state) const {
 }
 
 /// One continuation step: the QP's change of forces, as little damped as leads to an equilibrium in
-/// which the rows' residual has not risen. `damping`: of the last step, and then of this one.
-Status ForceNewton::ContinueAlongEquilibria(double* damping) {
+/// which the rows' residual has not risen.
+Status ForceNewton::ContinueAlongEquilibria(Continuation* continuation) {
   const ForceNewtonTuning& tuning = kForceNewtonTuning;
   ModelState& state = *frame_.state;
   Status status = Linearise(state, /*allow_shift=*/true);
@@ -348,10 +349,11 @@ Status ForceNewton::ContinueAlongEquilibria(double* damping) {
   // The residual before is comparable only where the state before was an equilibrium.
   const double before = state.balanced ? ChiSquared(*frame_.targets, state, &fit_.residual_m)
                                        : std::numeric_limits<double>::infinity();
-  *damping = *damping > tuning.least_damping ? *damping / tuning.damping_growth : 0.0;
+  double& damping = continuation->damping;
+  damping = damping > tuning.least_damping ? damping / tuning.damping_growth : 0.0;
   for (int failures = 0; failures < tuning.most_failures; ++failures) {
     qp_.Start(*frame_.cables, state.lambda_a_N);
-    status = SolveQp(state, *damping);
+    status = SolveQp(state, damping);
     if (!status.ok()) return status;
     ModelState moved = state;
     status = Balance(qp_.lambda_f_N(), &continuation_solver_, &moved);
@@ -359,10 +361,10 @@ Status ForceNewton::ContinueAlongEquilibria(double* damping) {
     const double after = ChiSquared(*frame_.targets, moved, &fit_.residual_m);
     if (status.ok() && after <= before) {
       state = std::move(moved);
-      const bool gains = after <= (1.0 - tuning.least_gain) * before;
-      return gains ? Status::Ok() : Status(StatusCode::kNotConverged, {});
+      continuation->gains = after <= (1.0 - tuning.least_gain) * before;
+      return Status::Ok();
     }
-    *damping = std::max(tuning.least_damping, tuning.damping_growth * *damping);
+    damping = std::max(tuning.least_damping, tuning.damping_growth * damping);
   }
   return {StatusCode::kNotConverged, {}};
 }

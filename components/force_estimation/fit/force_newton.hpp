@@ -116,7 +116,8 @@ class ForceNewton final : private fem::NewtonProblem {
   void AddWork(double work) { work_ += work; }
   /// Replaces Config::frame_tolerance for the fits from now on.
   void SetTolerance(double relative) { config_.frame_tolerance = relative; }
-  /// Continuation steps that a fit may try where Newton's method diverges; initially 8.
+  /// Continuation steps that a fit may try where Newton's method diverges; initially 8. 0: inputs
+  /// that jumped are not followed either.
   void LimitContinuationSteps(int most) { most_continuation_steps_ = most; }
   /// Whether fits compute modulus_sensitivity_N, which costs a substitution each; initially true.
   void TellModulusSensitivity(bool tell) { tell_modulus_sensitivity_ = tell; }
@@ -203,9 +204,15 @@ class ForceNewton final : private fem::NewtonProblem {
   void AcceptTrial() override;
   void Accelerate();
 
+  /// What continuation steps of one fit pass on.
+  struct Continuation {
+    double damping = 0.0;  ///< of the last step
+    bool gains = true;     ///< the last step took enough of the residual away for another one
+  };
+
   Status FitWithContinuation();
   Status RunNewton(bool exact_only);
-  Status ContinueAlongEquilibria(double* damping);
+  Status ContinueAlongEquilibria(Continuation* continuation);
   Status Balance(const Eigen::VectorXd& lambda_f_N, fem::StaticSolver* solver, ModelState* state);
   Status Linearise(const ModelState& state, bool allow_shift);
   bool IsEvaluated(const ModelState& state) const;
