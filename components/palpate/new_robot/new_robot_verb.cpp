@@ -160,8 +160,8 @@ app::Verb NewRobotVerb() {
             "A cable: the point where it is pulled from, eyelets, the point where "
             "it is attached, as \"x,y,z;x,y,z;...\" in the unit of the mesh file or in "
             "another one (\"...;x,y,z m\"), or as names of points of the mesh; two points "
-            "in the body get eyelets between them. `palpate view` of the robot file "
-            "makes this option of clicks on the body. Without it points, curves and "
+            "in the body get eyelets between them. `palpate view ROBOT.yaml` gives this option by "
+            "clicks on the body. Without it points, curves and "
             "straight channels of the mesh");
         arguments.Option("--markers", &known.markers, 0, 200,
                          "Number of places for markers to suggest where the mesh names none");

@@ -72,7 +72,8 @@ std::unique_ptr<ShownExperiment> ExperimentOf(const Command& command) {
 std::filesystem::path RobotFileOf(const Command& command, const ShownExperiment* shown) {
   if (IsRobotFile(command.recording)) {
     if (command.robot.empty()) return command.recording;
-    throw InputError("--robot: " + command.recording.string() + " is shown, a robot file itself");
+    throw InputError("--robot: " + command.recording.string() +
+                     " is a robot file, which is shown by itself: leave --robot out");
   }
   if (!command.robot.empty()) return app::FindRobotFile(command.robot);
   const std::filesystem::path diagnosed = command.results / kDiagnosedRobotFile;

@@ -73,7 +73,10 @@ TEST(ViewCommand, RefusesASecondRobotBesideARobotFile) {
     MakeNode(command);
     FAIL() << "two robots were taken";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--robot: finger.yaml is shown, a robot file itself"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr(
+            "--robot: finger.yaml is a robot file, which is shown by itself: leave --robot out"));
   }
 }
 
