@@ -302,7 +302,7 @@ int Diagnose(const DiagnoseOptions& options) {
   if (!options.explain.empty())
     CheckCause("--explain", options.explain, diagnosis::SearchedFaults());
   CheckOutputFolder(options.out);
-  app::KeepLargeBlocks();               // fits come and go
+  app::KeepLargeBlocks();               // memory of one fit for the next
   PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =

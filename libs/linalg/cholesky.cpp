@@ -42,6 +42,13 @@ void SolveByLdlt(const Eigen::MatrixXd& A, Columns* columns) {
   }
 }
 
+/// b becomes x with L L' x = b.
+template <typename Columns>
+void SolveByEigen(const Eigen::MatrixXd& L, Columns* columns) {
+  L.triangularView<Eigen::Lower>().solveInPlace(*columns);
+  L.triangularView<Eigen::Lower>().transpose().solveInPlace(*columns);
+}
+
 }  // namespace
 
 Cholesky::Cholesky(const Eigen::MatrixXd& A) : L_(A) {
@@ -58,16 +65,14 @@ Cholesky::Cholesky(const Eigen::MatrixXd& A) : L_(A) {
 
 Eigen::VectorXd Cholesky::Solve(Eigen::VectorXd b) const {
   CheckRows(L_, b.rows());
-  L_.triangularView<Eigen::Lower>().solveInPlace(b);
-  L_.triangularView<Eigen::Lower>().transpose().solveInPlace(b);
+  SolveByEigen(L_, &b);
   return b;
 }
 
 Eigen::MatrixXd Cholesky::Solve(Eigen::MatrixXd B) const {
   CheckRows(L_, B.rows());
   if (L_.rows() < kLarge) {
-    L_.triangularView<Eigen::Lower>().solveInPlace(B);
-    L_.triangularView<Eigen::Lower>().transpose().solveInPlace(B);
+    SolveByEigen(L_, &B);
     return B;
   }
   const auto n = static_cast<int>(L_.rows());

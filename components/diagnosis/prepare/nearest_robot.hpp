@@ -22,8 +22,8 @@ struct NearestRobot {
 /// another side that a linear model about the file's does not show them, and little of its surface
 /// would be matched. All are tried, at one sample for each actuator, of when that is driven the
 /// most, and for chambers at one of each recording; none where the file's robot is much nearer than
-/// these samples are to each other. `source`: nullptr where there are no depth
-/// frames; what they show goes before markers.
+/// these samples are to each other. `source`: nullptr where there are no depth frames; what they
+/// show goes before markers.
 NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperiment& observed,
                               int threads, SurfaceSource* source);
 
