@@ -148,6 +148,11 @@ std::vector<HostClock> ClockOffsets::All() const {
   return list;
 }
 
+std::optional<ClockOffset> ClockOffsets::OfHost(const std::string& host_id) const {
+  const std::lock_guard lock(mutex_);
+  return Best(host_id, wall_());
+}
+
 std::optional<ClockOffset> ClockOffsets::Of(std::string_view topic) const {
   const std::lock_guard lock(mutex_);
   if (Contains(own_topics_, topic)) return ClockOffset{};

@@ -29,6 +29,12 @@ struct HostClock {
   ClockOffset offset;  ///< its clock minus the own one
 };
 
+/// The clock that stamps a topic.
+struct StampClock {
+  Host host;                          ///< of the process that writes it
+  std::optional<ClockOffset> offset;  ///< its clock minus the own one; nullopt: not measured yet
+};
+
 /// Measures the offsets between the clocks of the hosts of a domain. Each process sends on
 /// /clock_exchange, once a second, its time and when it got the last message of each process on
 /// another host. Messages are stamped by the thread that receives them. Safe from any thread.
@@ -49,6 +55,8 @@ class ClockOffsets {
   /// Of the host whose process stamps a topic; 0 for this host; nullopt: unknown, as of ROS 2's
   /// drivers.
   std::optional<ClockOffset> Of(std::string_view topic) const;
+  /// Of a host by its id; 0 for this host; nullopt: not measured yet, or not heard for 10 s.
+  std::optional<ClockOffset> OfHost(const std::string& host_id) const;
 
  private:
   struct Peer {

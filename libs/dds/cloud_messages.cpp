@@ -178,4 +178,30 @@ Status FromJoinedPointCloud2(const idl::sensor_msgs::PointCloud2& message, Joine
   return TakePoints(message, all, &cloud->points);
 }
 
+Status SplitCloud(const JoinedCloud& joined, const std::vector<Eigen::Isometry3d>& T_camera_first,
+                  std::vector<rgbd::SensedCloud>* clouds) {
+  std::vector<std::vector<Eigen::Index>> columns(1 + T_camera_first.size());
+  clouds->assign(columns.size(), {});
+  for (std::size_t i = 0; i < joined.cameras.size(); ++i) {
+    const std::size_t camera = joined.cameras[i];
+    if (camera >= columns.size()) {
+      return Invalid("a point of camera " + std::to_string(camera) + ": the settings have " +
+                     std::to_string(columns.size()) + " cameras");
+    }
+    columns[camera].push_back(ToIndex(i));
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    rgbd::SensedCloud& cloud = (*clouds)[k];
+    cloud.points_m = joined.points.points_m(Eigen::all, columns[k]);
+    cloud.sigma_m = joined.points.sigma_m(columns[k]);
+    for (const Eigen::Index i : columns[k]) {
+      const auto rgb = joined.points.colors_rgb.begin() + 3 * i;
+      cloud.colors_rgb.insert(cloud.colors_rgb.end(), rgb, rgb + 3);
+    }
+    if (k == 0) continue;
+    cloud.points_m = (T_camera_first[k - 1] * cloud.points_m.cast<double>()).cast<float>().eval();
+  }
+  return Status::Ok();
+}
+
 }  // namespace palpate::dds

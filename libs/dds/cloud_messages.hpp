@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -39,5 +40,11 @@ Message<idl::sensor_msgs::PointCloud2> ToJoinedPointCloud2(const JoinedCloud& cl
 
 /// The same again; a cloud without `camera` is of the first. kInvalidInput as above.
 Status FromJoinedPointCloud2(const idl::sensor_msgs::PointCloud2& message, JoinedCloud* cloud);
+
+/// Points by the camera that saw them, those of further cameras mapped into its frame.
+/// `T_camera_first`: of the cameras beside the first; `clouds` [1 + T_camera_first.size()].
+/// kInvalidInput for a point of a camera beyond these.
+Status SplitCloud(const JoinedCloud& joined, const std::vector<Eigen::Isometry3d>& T_camera_first,
+                  std::vector<rgbd::SensedCloud>* clouds);
 
 }  // namespace palpate::dds

@@ -29,4 +29,22 @@ std::vector<FurtherCamera> ReadFurtherCameras(
 /// Their names.
 std::vector<std::string> NamesOf(const std::vector<FurtherCamera>& cameras);
 
+/// Gives each camera without a pose that of its name in `calibrated`, the cameras of a calibration
+/// file. Throws InputError where that has none.
+void TakePoses(const std::vector<FurtherCamera>& calibrated, const std::string& file,
+               std::vector<FurtherCamera>* cameras);
+
+/// Names of further cameras that run, against those that a calibration holds.
+struct CameraMatch {
+  /// Run, and the calibration does not hold them: of cameras that were calibrated together none may
+  /// move alone, so that no pose of it counts.
+  std::vector<std::string> missing;
+  std::vector<std::string> unknown;  ///< it holds them, and they do not run
+};
+CameraMatch MatchCameras(const std::vector<std::string>& running,
+                         const std::vector<std::string>& calibrated);
+
+/// What a person should know of it, as a sentence about the calibration; empty: all match.
+std::string Describe(const CameraMatch& match);
+
 }  // namespace palpate::dds

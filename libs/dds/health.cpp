@@ -97,11 +97,19 @@ void HealthReporter::ExchangeClocks() {
   const auto ns_of = [](const std::optional<ClockOffset>& offset) {
     return offset ? std::llround(1e9 * offset->offset_s) : 0LL;
   };
-  const auto of_frames = clock_offsets_.Of(frames);
+  // Where the camera's host is gone, frames of further cameras still have its clock.
+  if (const auto heard = clock_offsets_.Of(frames)) frames_clock_ = heard;
+  const auto& of_frames = frames_clock_;
   const auto of_cables = clock_offsets_.Of(cables);
   // Where one of the two is not known, stamps of cable inputs stay as they are.
   const bool are_known = of_frames && of_cables;
   clock_->SetOffsets(ns_of(of_frames), ns_of(are_known ? of_cables : of_frames));
+}
+
+std::optional<StampClock> HealthReporter::ClockOf(const std::string& ros_name) {
+  const auto writer = sole_writers_.WriterOf(ros_name);
+  if (!writer) return std::nullopt;
+  return StampClock{writer->host, clock_offsets_.OfHost(writer->host.id)};
 }
 
 HealthReporter::KeysAndValues HealthReporter::ClockValues() const {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +44,10 @@ class HealthReporter {
   void Report(const Status& status, const HealthCounts& counts, const KeysAndValues& extra,
               Clock::time_point now);
 
+  /// The clock that stamps a topic, by its ROS name; nullopt: nobody writes it, or that process
+  /// does not tell its host, as those of ROS 2.
+  std::optional<StampClock> ClockOf(const std::string& ros_name);
+
   /// Reports that DDS did not take.
   uint64_t failed_count() const { return status_.failed_count() + diagnostics_.failed_count(); }
 
@@ -70,6 +75,7 @@ class HealthReporter {
   SoleWriters sole_writers_;
   std::string conflict_;  ///< that was logged last; empty: none now
   ClockOffsets clock_offsets_;
+  std::optional<ClockOffset> frames_clock_;  ///< the last one that was known
 };
 
 }  // namespace palpate::dds

@@ -60,6 +60,18 @@ bool SoleWriters::CameLater(const Guid& other, const std::optional<ProcessIdenti
   return own_start_ns > process->start_ns || (own_start_ns == process->start_ns && guid_ > other);
 }
 
+std::optional<ProcessIdentity> SoleWriters::WriterOf(const std::string& ros_name) {
+  peers_.Update();
+  (void)publications_.Update();
+  const std::string dds_topic = DdsTopicName(ros_name);
+  for (const auto& [guid, publication] : publications_.all()) {
+    if (publication.dds_topic != dds_topic) continue;
+    const auto peer = peers_.all().find(publication.participant);
+    if (peer != peers_.all().end() && peer->second && MayRun(*peer->second)) return peer->second;
+  }
+  return std::nullopt;
+}
+
 std::optional<WriterConflict> SoleWriters::Find(Clock::time_point now) {
   peers_.Update();
   (void)publications_.Update();

@@ -35,6 +35,9 @@ class SoleWriters {
   /// To be called now and then. nullopt: this process is the only writer of its topics.
   std::optional<WriterConflict> Find(Clock::time_point now);
 
+  /// The process that writes a topic, by its ROS name; nullopt: none does, or it does not tell.
+  std::optional<ProcessIdentity> WriterOf(const std::string& ros_name);
+
  private:
   bool IsOwnTopic(const std::string& dds_topic) const;
   bool CameLater(const Guid& other, const std::optional<ProcessIdentity>& process,

@@ -4,7 +4,9 @@
 #include "libs/robot/calibration_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
+#include <utility>
 
 #include "libs/core/config_reader.hpp"
 #include "libs/core/error.hpp"
@@ -52,15 +54,46 @@ CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode*
   return pose;
 }
 
+/// As folders and topics of cameras are named.
+bool IsNameOfCamera(const std::string& name) {
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
+  return !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
+         std::all_of(name.begin(), name.end(), [&](unsigned char c) {
+           return is_letter(c) || std::isdigit(c) != 0 || c == '_';
+         });
+}
+
 CalibratedCamera ReadCamera(const ConfigNode& node) {
   MapReader map(node, CalibratedCameraKeys());
   CalibratedCamera camera;
   map.Read("name", &camera.name);
+  if (!IsNameOfCamera(camera.name)) {
+    Refuse(map.Require("name"), "is '" + Excerpt(camera.name) +
+                                    "'; must be letters, digits and '_', a letter first: the name "
+                                    "that the camera has in the experiment");
+  }
   const ConfigNode& pose = map.Require("T_robot_camera");
   camera.pose = ReadCalibratedPose(pose, map.Optional("T_robot_camera_standard_error"));
   if (const ConfigNode* bias = map.Optional("depth_bias")) camera.depth_bias = ReadDepthBias(*bias);
   map.Finish();
   return camera;
+}
+
+/// The list `cameras`.
+std::vector<CalibratedCamera> ReadCameras(const ConfigNode& list) {
+  if (list.kind != ConfigNode::Kind::kList) Refuse(list, "must be a list");
+  std::vector<CalibratedCamera> cameras;
+  for (const ConfigNode& node : list.items) {
+    CalibratedCamera camera = ReadCamera(node);
+    const bool is_there =
+        std::any_of(cameras.begin(), cameras.end(),
+                    [&](const CalibratedCamera& other) { return other.name == camera.name; });
+    if (is_there) {
+      Refuse(node, "is camera '" + camera.name + "' again; a camera has one pose: remove one");
+    }
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
 }
 
 CalibratedDrive ReadDrive(const ConfigNode& node) {
@@ -213,7 +246,7 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
     if (!calibration.pose) Refuse(*bias, "needs T_robot_camera, which it was found with");
     calibration.depth_bias = ReadDepthBias(*bias);
   }
-  calibration.cameras = ReadItems(&map, "cameras", ReadCamera);
+  if (const ConfigNode* list = map.Optional("cameras")) calibration.cameras = ReadCameras(*list);
   calibration.drives = ReadItems(&map, "drives", ReadDrive);
   calibration.pressure_sensors = ReadItems(&map, "pressure_sensors", ReadPressureSensor);
   if (const ConfigNode* scale = map.Optional("geometry_scale")) {

@@ -121,4 +121,11 @@ void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile
   }
 }
 
+void KeepCamerasFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
+  const auto of_one_name = [](const auto& one, const auto& other) {
+    return one.name == other.name;
+  };
+  KeepParts(before.cameras, of_one_name, &file->cameras);
+}
+
 }  // namespace palpate::calibration

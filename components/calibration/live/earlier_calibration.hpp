@@ -26,4 +26,7 @@ void ReadAsBefore(const robot::CalibrationFile& before, const robot::RobotModel&
 /// earlier correction; they are composed with it, so that they apply to what is measured.
 void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file);
 
+/// The same of the cameras beside the first: those that `file` does not have, by name.
+void KeepCamerasFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file);
+
 }  // namespace palpate::calibration

@@ -22,6 +22,15 @@ std::int64_t StampOf(const std::variant<SeenCloud, SeenMarkers>& seen) {
   return std::visit([](const auto& one) { return one.stamp_ns; }, seen);
 }
 
+/// nullopt where they differ, or are not known.
+std::optional<geometry::DepthPicture> TheOneOf(
+    const std::vector<geometry::DepthPicture>& pictures) {
+  const bool is_one =
+      std::adjacent_find(pictures.begin(), pictures.end(), std::not_equal_to<>()) == pictures.end();
+  if (pictures.empty() || !is_one || pictures.front().width_px == 0) return std::nullopt;
+  return pictures.front();
+}
+
 }  // namespace
 
 FrameCollector::FrameCollector(const robot::RobotModel& model, const CollectorSettings& settings)
@@ -37,6 +46,7 @@ void FrameCollector::Begin(int count) {
   settings_taken_.clear();
   clouds_.clear();
   pictures_.clear();
+  further_.clear();
   markers_.clear();
   points_.clear();
   waits_for_ = "no cloud or markers of the robot yet";
@@ -110,6 +120,15 @@ void FrameCollector::Take(SeenCloud seen, Setting setting) {
                      .cables = setting.cables,
                      .gravity_m_s2 = gravity_m_s2_});
   pictures_.push_back(seen.picture);
+  further_.resize(std::max(further_.size(), seen.further.size()));
+  for (std::size_t k = 0; k < seen.further.size(); ++k) {
+    if (seen.further[k].cloud.Count() == 0) continue;
+    further_[k].clouds.push_back({.name = NextName(),
+                                  .cloud = std::move(seen.further[k].cloud),
+                                  .cables = setting.cables,
+                                  .gravity_m_s2 = gravity_m_s2_});
+    further_[k].pictures.push_back(seen.further[k].picture);
+  }
   settings_taken_.push_back(std::move(setting));
   waits_for_.clear();
 }
@@ -145,10 +164,11 @@ void FrameCollector::Take(SeenMarkers seen, Setting setting) {
 }
 
 std::optional<geometry::DepthPicture> FrameCollector::picture() const {
-  const bool is_one = std::adjacent_find(pictures_.begin(), pictures_.end(),
-                                         std::not_equal_to<>()) == pictures_.end();
-  if (pictures_.empty() || !is_one || pictures_.front().width_px == 0) return std::nullopt;
-  return pictures_.front();
+  return TheOneOf(pictures_);
+}
+
+std::optional<geometry::DepthPicture> FrameCollector::OfCamera::picture() const {
+  return TheOneOf(pictures);
 }
 
 std::string FrameCollector::NextName() const { return "frame " + std::to_string(taken() + 1); }

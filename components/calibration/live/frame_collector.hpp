@@ -19,11 +19,18 @@
 
 namespace palpate::calibration {
 
+/// What one camera sees of the robot.
+struct CameraCloud {
+  rgbd::SensedCloud cloud;         ///< camera frame; empty: the camera is missing
+  geometry::DepthPicture picture;  ///< of the depth image
+};
+
 /// Cloud of the robot without contacts.
 struct SeenCloud {
   std::int64_t stamp_ns = 0;
-  rgbd::SensedCloud cloud;         ///< camera frame
-  geometry::DepthPicture picture;  ///< of the depth image
+  rgbd::SensedCloud cloud;                ///< of the first camera, in its frame
+  geometry::DepthPicture picture;         ///< of its depth image
+  std::vector<CameraCloud> further = {};  ///< of the cameras beside it
 };
 
 struct CollectorSettings {
@@ -59,6 +66,14 @@ class FrameCollector {
   const std::vector<UnlabelledFrame>& points() const { return points_; }
   /// Size and lens of the depth images of all clouds; nullopt where they differ.
   std::optional<geometry::DepthPicture> picture() const;
+  /// The same of the cameras beside the first, each with the frames in which it saw the robot.
+  struct OfCamera {
+    std::vector<CloudFrame> clouds;
+    std::vector<geometry::DepthPicture> pictures;  ///< [clouds]
+
+    std::optional<geometry::DepthPicture> picture() const;
+  };
+  const std::vector<OfCamera>& further() const { return further_; }
 
  private:
   using Seen = std::variant<SeenCloud, SeenMarkers>;
@@ -87,6 +102,7 @@ class FrameCollector {
   std::vector<Setting> settings_taken_;
   std::vector<CloudFrame> clouds_;
   std::vector<geometry::DepthPicture> pictures_;  ///< [clouds]
+  std::vector<OfCamera> further_;
   std::vector<CalibrationFrame> markers_;
   std::vector<UnlabelledFrame> points_;
   std::string waits_for_;

@@ -8,6 +8,7 @@
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/model_snapshot.hpp"
+#include "components/calibration/joint/request_after.hpp"
 #include "components/calibration/live/earlier_calibration.hpp"
 #include "components/calibration/pose/unlabelled_calibration.hpp"
 #include "libs/core/sha256.hpp"
@@ -39,14 +40,19 @@ void AppendSightings(const std::vector<MarkerSighting>& sightings, std::string* 
   }
 }
 
+void AppendClouds(const std::vector<CloudFrame>& frames, std::string* bytes) {
+  for (const CloudFrame& frame : frames) {
+    AppendBytes(frame.cloud.points_m, bytes);
+    AppendBytes(frame.cloud.sigma_m, bytes);
+    AppendCables(frame.cables, bytes);
+  }
+}
+
 /// Over all numbers of the frames.
 std::string HashOf(const LiveJob& job) {
   std::string bytes;
-  for (const CloudFrame& frame : job.clouds) {
-    AppendBytes(frame.cloud.points_m, &bytes);
-    AppendBytes(frame.cloud.sigma_m, &bytes);
-    AppendCables(frame.cables, &bytes);
-  }
+  AppendClouds(job.clouds, &bytes);
+  for (const FurtherCameraJob& camera : job.further) AppendClouds(camera.clouds, &bytes);
   for (const CalibrationFrame& frame : job.markers) {
     AppendSightings(frame.markers, &bytes);
     AppendCables(frame.cables, &bytes);
@@ -86,6 +92,46 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* r
   return std::move(fit.joint);
 }
 
+/// Pose and depth bias of a further camera, for the robot that `file` describes.
+Status FitFurtherCamera(robot::RobotModel& model, const LiveJob& job, FurtherCameraJob camera,
+                        const robot::CalibrationFile& file, robot::CalibratedCamera* found) {
+  ReadAsBefore(file, model, &camera.clouds);
+  CloudSettings settings;
+  settings.request = RequestAfter(file);
+  settings.request.stop = settings.search.stop = job.request.stop;
+  settings.fit_depth_bias = job.fit_depth_bias && camera.picture;
+  const CloudCalibration fit =
+      CalibrateFromClouds(model, camera.clouds, camera.T_robot_camera_start, settings);
+  if (!fit.status.ok()) return fit.status;
+  robot::CalibrationFile alone;
+  TakeFit(fit.joint, model, &alone);
+  if (camera.picture) TakeDepthBias(fit.joint, *camera.picture, &alone);
+  if (!alone.pose) return {StatusCode::kUnobservable, "its clouds do not determine its pose"};
+  *found = {camera.name, *alone.pose, alone.depth_bias};
+  return Status::Ok();
+}
+
+void CalibrateFurther(robot::RobotModel& model, const LiveJob& job, LiveResult* result) {
+  robot::CalibrationFile body = result->file;
+  body.drives.clear();  // applied to the frames, as the pressure sensors
+  const ModelSnapshot nominal(model);
+  for (const FurtherCameraJob& camera : job.further) {
+    if (camera.clouds.empty()) {
+      result->left_out.push_back("camera '" + camera.name + "': it did not see the robot");
+      continue;
+    }
+    robot::ApplyCalibration(body, &model);
+    robot::CalibratedCamera found;
+    const Status status = FitFurtherCamera(model, job, camera, result->file, &found);
+    nominal.Restore();
+    if (status.ok()) {
+      result->file.cameras.push_back(std::move(found));
+    } else {
+      result->left_out.push_back("camera '" + camera.name + "': " + status.message());
+    }
+  }
+}
+
 }  // namespace
 
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
@@ -116,6 +162,8 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
   if (job.picture) TakeDepthBias(fit, *job.picture, &result.file);
   kept.RestoreGravity();
   if (job.before) KeepFromBefore(*job.before, &result.file);
+  CalibrateFurther(model, job, &result);
+  if (job.before) KeepCamerasFromBefore(*job.before, &result.file);
   result.pose_covariance = fit.pose_covariance;
   return result;
 }

@@ -18,12 +18,23 @@
 
 namespace palpate::calibration {
 
+/// The frames of a camera beside the first, at the settings of `LiveJob::clouds` in which it saw
+/// the robot.
+struct FurtherCameraJob {
+  std::string name;
+  std::vector<CloudFrame> clouds;
+  /// As of LiveJob.
+  std::optional<geometry::DepthPicture> picture;
+  geometry::RigidTransform T_robot_camera_start;
+};
+
 /// A calibration of frames of the running robot. One of `clouds`, `markers` and `points` is set.
 struct LiveJob {
   JointRequest request;
   std::vector<CloudFrame> clouds;
-  std::vector<CalibrationFrame> markers;  ///< with names
-  std::vector<UnlabelledFrame> points;    ///< markers without names
+  std::vector<FurtherCameraJob> further = {};  ///< beside the camera of `clouds`
+  std::vector<CalibrationFrame> markers;       ///< with names
+  std::vector<UnlabelledFrame> points;         ///< markers without names
   /// Size and lens of the clouds' depth images; nullopt: the depth bias is not estimated.
   std::optional<geometry::DepthPicture> picture;
   bool fit_depth_bias = true;  ///< as CloudSettings
@@ -43,13 +54,15 @@ struct LiveResult {
   /// That of CalibrateFromClouds, CalibrateFrames or CalibrateUnlabelled.
   Status status;
   robot::CalibrationFile file;        ///< valid where `status` is ok
-  std::vector<std::string> left_out;  ///< frames that are not used, and why
+  std::vector<std::string> left_out;  ///< frames and further cameras that are not used, and why
   bool decided_by_last_pose = false;  ///< of UnlabelledCalibration
   /// Of the pose: rotation vector (rad), translation (m), robot frame.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// Runs a job. `model` must be as the robot file has it and is left unchanged.
+/// Runs a job: first the robot and the first camera, then each further camera against that robot. A
+/// further camera whose fit fails keeps its pose of the last calibration. `model` must be as the
+/// robot file has it and is left unchanged.
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job);
 
 }  // namespace palpate::calibration

@@ -10,6 +10,7 @@
 #include "libs/app/log.hpp"
 #include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/dds/further_cameras.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -45,7 +46,8 @@ std::unique_ptr<CalibrationNode> MakeNode(const Command& command) {
       fem::SolverSettings{command.config.solver, command.config.threads});
   return std::make_unique<CalibrationNode>(
       command.config, std::move(model), command.options.domain_id,
-      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log,
+      CalibrateLive, dds::ReadFurtherCameras(command.config.cameras, app::ParseYaml));
 }
 
 }  // namespace palpate::calibration

@@ -40,12 +40,14 @@ void SetHead(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration*
   message->degrees_of_freedom = static_cast<std::uint32_t>(file.degrees_of_freedom);
 }
 
-void SetDepthBias(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
-  message->has_depth_bias = file.depth_bias.has_value();
-  if (!file.depth_bias) return;
-  const geometry::DepthBiasMap& map = file.depth_bias->map;
+/// `Target`: Calibration or CalibratedCamera.
+template <typename Target>
+void SetDepthBias(const std::optional<robot::CalibratedDepthBias>& bias, Target* message) {
+  message->has_depth_bias = bias.has_value();
+  if (!bias) return;
+  const geometry::DepthBiasMap& map = bias->map;
   auto& target = message->depth_bias;
-  dds::SetPicture(target.picture, file.depth_bias->picture);
+  dds::SetPicture(target.picture, bias->picture);
   target.order = static_cast<std::uint32_t>(map.basis.order);
   target.span = map.basis.span;
   dds::SetNumbers(target.coefficients, map.coefficients.data(),
@@ -53,6 +55,22 @@ void SetDepthBias(const robot::CalibrationFile& file, idl::palpate_msgs::Calibra
   // It is symmetric: rows or columns.
   dds::SetNumbers(target.covariance, map.covariance.data(),
                   static_cast<std::size_t>(map.covariance.size()));
+}
+
+/// Their poses have no correlations: a file holds none.
+void SetCameras(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
+  dds::Resize(message->cameras, file.cameras.size());
+  for (std::size_t k = 0; k < file.cameras.size(); ++k) {
+    const robot::CalibratedCamera& found = file.cameras[k];
+    auto& camera = message->cameras._buffer[k];
+    dds::SetText(camera.name, found.name);
+    camera.camera_in_robot = dds::ToPose(found.pose.T_robot_camera);
+    Eigen::Matrix<double, 6, 1> errors;
+    errors << found.pose.translation_error_m, found.pose.rotation_error_rad;
+    Eigen::Map<Covariance>(camera.camera_covariance) =
+        errors.cwiseAbs2().asDiagonal().toDenseMatrix();
+    SetDepthBias(found.depth_bias, &camera);
+  }
 }
 
 void SetMaterials(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
@@ -119,7 +137,8 @@ void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Cali
     actuator.gain_standard_error = file.drives[k].standard_error.gain;
   }
   SetPressureSensors(file, message);
-  SetDepthBias(file, message);
+  SetDepthBias(file.depth_bias, message);
+  SetCameras(file, message);
   SetMaterials(file, message);
   SetGeometry(file, message);
   dds::Resize(message->undetermined, file.undetermined.size());

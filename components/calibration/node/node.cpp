@@ -62,7 +62,8 @@ std::string RemarksOn(const LiveResult& result) {
 
 CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
                                  int domain_id, dds::TopicTable table,
-                                 dds::NodeLog::ProcessLog process_log, Worker::Fit fit)
+                                 dds::NodeLog::ProcessLog process_log, Worker::Fit fit,
+                                 const std::vector<dds::FurtherCamera>& cameras)
     : config_{config},
       participant_{dds::ParticipantOf(config.dds, "palpate_calibration", domain_id),
                    std::move(table)},
@@ -79,7 +80,8 @@ CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot
       markers_{participant_.CreateReader(dds::kMarkersTopic)},
       calibration_{participant_.CreateWriter(dds::kCalibrationTopic)},
       status_{participant_.CreateWriter(dds::kCalibrationStatusTopic)},
-      clouds_{participant_, loop_, config.allow_contacts, EventsOfClouds()},
+      cameras_{cameras},
+      clouds_{participant_, loop_, config.allow_contacts, EventsOfClouds(), dds::NamesOf(cameras)},
       inputs_{participant_, loop_, log_} {
   ReadLastCalibration();
   ExpectInputs();
@@ -108,11 +110,25 @@ void CalibrationNode::ReadLastCalibration() {
     const Status status = robot::CheckCalibration(*last_, worker_.model());
     if (!status.ok()) throw InputError(file.string() + ": " + status.message());
     Publish(*last_, CovarianceOf(*last_));
-    if (last_->pose) T_robot_camera_ = ToTransform(last_->pose->T_robot_camera);
+    const std::vector<dds::FurtherCamera> given = cameras_;
+    TakePosesOf(*last_);
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      if (given[k].T_robot_camera) cameras_[k] = given[k];
+    }
   }
   if (config_.camera_pose.empty()) return;
   T_robot_camera_ =
       ToTransform(geometry::ReadPose(app::ParseYaml(config_.camera_pose, "camera_pose")));
+}
+
+/// As initial poses.
+void CalibrationNode::TakePosesOf(const robot::CalibrationFile& file) {
+  if (file.pose) T_robot_camera_ = ToTransform(file.pose->T_robot_camera);
+  for (const robot::CalibratedCamera& known : file.cameras) {
+    for (dds::FurtherCamera& camera : cameras_) {
+      if (camera.name == known.name) camera.T_robot_camera = known.pose.T_robot_camera;
+    }
+  }
 }
 
 /// While frames are collected.
@@ -124,6 +140,9 @@ void CalibrationNode::ExpectInputs() {
                  dds::InputKind::kStream, [this] { return progress_.state == "collecting"; });
   inputs_.Expect(clouds_.clouds(), perception, dds::InputKind::kStream, collects_clouds);
   inputs_.Expect(clouds_.reports(), perception, dds::InputKind::kStream, collects_clouds);
+  for (const dds::Endpoint* reports : clouds_.further_reports()) {
+    inputs_.Expect(*reports, perception, dds::InputKind::kStream, collects_clouds);
+  }
   inputs_.Expect(markers_, perception, dds::InputKind::kStream, collects_markers);
 }
 
@@ -221,6 +240,12 @@ Status CalibrationNode::Check(const Request& request) const {
     return NotOk(StatusCode::kNoCalibration,
                  "clouds need an approximate camera pose: set camera_pose");
   }
+  for (const dds::FurtherCamera& camera : cameras_) {
+    if (request.source != "clouds" || camera.T_robot_camera) continue;
+    return NotOk(StatusCode::kNoCalibration, "clouds need an approximate pose of camera '" +
+                                                 camera.name +
+                                                 "': write it behind its name in 'cameras'");
+  }
   if (request.source == "markers" && std::ssize(marker_names_) < kLeastMarkers) {
     return NotOk(StatusCode::kUnobservable, "the robot file has " +
                                                 std::to_string(marker_names_.size()) +
@@ -306,6 +331,7 @@ LiveJob CalibrationNode::MakeJob() const {
     job.request.moduli.push_back(static_cast<int>(found - part_names_.begin()));
   }
   job.clouds = collector_.clouds();
+  job.further = FurtherJobs();
   job.markers = collector_.markers();
   job.points = collector_.points();
   if (request_.source == "markers") job.request.depth_bias_sigma = config_.marker_depth_bias;
@@ -321,6 +347,19 @@ LiveJob CalibrationNode::MakeJob() const {
   return job;
 }
 
+/// Of the cameras beside the first that saw the robot.
+std::vector<FurtherCameraJob> CalibrationNode::FurtherJobs() const {
+  std::vector<FurtherCameraJob> jobs;
+  for (std::size_t k = 0; k < collector_.further().size(); ++k) {
+    const FrameCollector::OfCamera& seen = collector_.further()[k];
+    jobs.push_back({.name = cameras_[k].name,
+                    .clouds = seen.clouds,
+                    .picture = seen.picture(),
+                    .T_robot_camera_start = ToTransform(*cameras_[k].T_robot_camera)});
+  }
+  return jobs;
+}
+
 void CalibrationNode::TakeResult() {
   const std::optional<LiveResult> result = worker_.TakeResult();
   if (!result) return;
@@ -331,7 +370,7 @@ void CalibrationNode::TakeResult() {
 
 void CalibrationNode::Adopt(const LiveResult& result) {
   last_ = result.file;
-  if (last_->pose) T_robot_camera_ = ToTransform(last_->pose->T_robot_camera);
+  TakePosesOf(*last_);
   Publish(*last_, result.pose_covariance);
   std::string reason = RemarksOn(result);
   if (!config_.calibration_file.empty()) {

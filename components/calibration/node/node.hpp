@@ -13,6 +13,7 @@
 #include "components/calibration/node/convert.hpp"
 #include "components/calibration/node/node_config.hpp"
 #include "components/calibration/node/worker.hpp"
+#include "libs/dds/further_cameras.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
@@ -25,11 +26,13 @@ namespace palpate::calibration {
 /// time is processed.
 class CalibrationNode {
  public:
-  /// `fit`: runs a job. Publishes the last calibration where its file exists. Throws InputError for
+  /// `fit`: runs a job. `cameras`: those beside the first, with their approximate poses where these
+  /// are known. Publishes the last calibration where its file exists. Throws InputError for
   /// bad settings and for a file of another robot, RunError where DDS fails.
   CalibrationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model, int domain_id,
                   dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
-                  Worker::Fit fit = CalibrateLive);
+                  Worker::Fit fit = CalibrateLive,
+                  const std::vector<dds::FurtherCamera>& cameras = {});
 
   /// Runs until Stop().
   void Run() { loop_.Run(); }
@@ -40,6 +43,7 @@ class CalibrationNode {
   using Clock = dds::WaitSet::Clock;
 
   void ReadLastCalibration();
+  void TakePosesOf(const robot::CalibrationFile& file);
   void ExpectInputs();
   CloudEvents EventsOfClouds();
   void TakeRequests();
@@ -55,6 +59,7 @@ class CalibrationNode {
   bool IsGoing() const;
   void Advance();
   LiveJob MakeJob() const;
+  std::vector<FurtherCameraJob> FurtherJobs() const;
   void TakeResult();
   void Adopt(const LiveResult& result);
   void Publish(const robot::CalibrationFile& file, const Eigen::Matrix<double, 6, 6>& covariance);
@@ -78,6 +83,7 @@ class CalibrationNode {
   dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;
   dds::Writer<idl::palpate_msgs::Calibration> calibration_;
   dds::Writer<idl::palpate_msgs::CalibrationStatus> status_;
+  std::vector<dds::FurtherCamera> cameras_;  ///< beside the first, with their initial poses
   CloudSource clouds_;
   std::optional<robot::CalibrationFile> last_;              ///< estimated or read
   std::optional<geometry::RigidTransform> T_robot_camera_;  ///< initial pose

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "libs/core/config_reader.hpp"
@@ -17,6 +18,7 @@ struct NodeConfig {
   std::string calibration_file;
   std::string source = "clouds";
   std::string camera_pose;
+  std::vector<std::string> cameras;
   int frames = 6;
   bool at_start = false;
   double still_s = 1.0;
@@ -53,6 +55,10 @@ struct NodeConfig {
       "rotation_xyzw: [x, y, z, w]}\": initial pose for clouds; empty: that of the last "
       "calibration; for unnamed markers on a symmetric robot it decides which marker is which, and "
       "where it is empty the cables do, then the last calibration");
+    v("cameras", cameras,
+      "Depth cameras beside the first, as perception has them: \"NAME: {translation_m: [x, y, z], "
+      "rotation_xyzw: [x, y, z, w]}\", its approximate pose, or \"NAME\" where the last "
+      "calibration has it; clouds calibrate each of them after the first");
     v("frames", frames, {.min = 1.0, .max = 100.0},
       "Frames of a calibration unless the request gives a number, each at another setting of the "
       "cables");

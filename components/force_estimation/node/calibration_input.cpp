@@ -3,7 +3,9 @@
 
 #include "components/force_estimation/node/calibration_input.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "libs/core/index.hpp"
@@ -36,29 +38,29 @@ void ReadHead(const idl::palpate_msgs::Calibration& message, robot::CalibrationF
   file->degrees_of_freedom = static_cast<int>(message.degrees_of_freedom);
 }
 
-Status ReadPose(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
-  file->pose.reset();
-  if (!message.has_camera) return Status::Ok();
-  robot::CalibratedPose& pose = file->pose.emplace();
-  if (!dds::FromPose(message.camera_in_robot, &pose.T_robot_camera)) {
+/// Of Calibration or CalibratedCamera, which hold a pose.
+template <typename Source>
+Status ReadPoseOf(const Source& message, robot::CalibratedPose* pose) {
+  if (!dds::FromPose(message.camera_in_robot, &pose->T_robot_camera)) {
     return Invalid("camera_in_robot is no pose");
   }
   for (int i = 0; i < 3; ++i) {
     const double shift_m2 = message.camera_covariance[7 * i];
     const double turn_rad2 = message.camera_covariance[7 * (i + 3)];
     if (!IsError(shift_m2) || !IsError(turn_rad2)) return Invalid("camera_covariance is none");
-    pose.translation_error_m[i] = std::sqrt(shift_m2);
-    pose.rotation_error_rad[i] = std::sqrt(turn_rad2);
+    pose->translation_error_m[i] = std::sqrt(shift_m2);
+    pose->rotation_error_rad[i] = std::sqrt(turn_rad2);
   }
   return Status::Ok();
 }
 
-Status ReadDepthBias(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
-  file->depth_bias.reset();
+/// Of the same.
+template <typename Source>
+Status ReadDepthBiasOf(const Source& message, std::optional<robot::CalibratedDepthBias>* into) {
+  into->reset();
   if (!message.has_depth_bias) return Status::Ok();
-  if (!message.has_camera) return Invalid("depth_bias comes without the camera's pose");
   const auto& source = message.depth_bias;
-  robot::CalibratedDepthBias& bias = file->depth_bias.emplace();
+  robot::CalibratedDepthBias& bias = into->emplace();
   bias.picture = dds::ToPicture(source.picture);
   bias.map.basis = {.order = static_cast<int>(source.order), .span = source.span};
   bias.map.coefficients =
@@ -68,6 +70,35 @@ Status ReadDepthBias(const idl::palpate_msgs::Calibration& message, robot::Calib
   bias.map.covariance =
       Eigen::Map<const Eigen::MatrixXd>(source.covariance._buffer, ToIndex(rows), ToIndex(rows));
   return robot::CheckDepthBias(bias);
+}
+
+Status ReadFirstCamera(const idl::palpate_msgs::Calibration& message,
+                       robot::CalibrationFile* file) {
+  file->pose.reset();
+  file->depth_bias.reset();
+  if (!message.has_camera) {
+    return message.has_depth_bias ? Invalid("depth_bias comes without the camera's pose")
+                                  : Status::Ok();
+  }
+  if (Status status = ReadPoseOf(message, &file->pose.emplace()); !status.ok()) return status;
+  return ReadDepthBiasOf(message, &file->depth_bias);
+}
+
+Status ReadFurtherCameras(const idl::palpate_msgs::Calibration& message,
+                          robot::CalibrationFile* file) {
+  file->cameras.clear();
+  for (const auto& source : dds::Elements(message.cameras)) {
+    robot::CalibratedCamera camera;
+    camera.name = dds::Text(source.name);
+    const bool is_there = std::any_of(file->cameras.begin(), file->cameras.end(),
+                                      [&](const auto& other) { return other.name == camera.name; });
+    if (is_there) return Invalid("camera '" + camera.name + "' is there twice");
+    Status status = ReadPoseOf(source, &camera.pose);
+    if (status.ok()) status = ReadDepthBiasOf(source, &camera.depth_bias);
+    if (!status.ok()) return Invalid("camera '" + camera.name + "': " + status.message());
+    file->cameras.push_back(std::move(camera));
+  }
+  return Status::Ok();
 }
 
 Status ReadMaterials(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
@@ -162,8 +193,8 @@ Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::Calibra
 Status FromCalibration(const idl::palpate_msgs::Calibration& message,
                        robot::CalibrationFile* calibration) {
   ReadHead(message, calibration);
-  if (Status status = ReadPose(message, calibration); !status.ok()) return status;
-  if (Status status = ReadDepthBias(message, calibration); !status.ok()) return status;
+  if (Status status = ReadFirstCamera(message, calibration); !status.ok()) return status;
+  if (Status status = ReadFurtherCameras(message, calibration); !status.ok()) return status;
   if (Status status = ReadMaterials(message, calibration); !status.ok()) return status;
   if (Status status = ReadGravity(message, calibration); !status.ok()) return status;
   if (Status status = ReadGeometry(message, calibration); !status.ok()) return status;

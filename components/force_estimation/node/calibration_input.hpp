@@ -42,7 +42,8 @@ class CalibrationInput {
 };
 
 /// The message as a calibration file. kInvalidInput for numbers that are not finite, standard
-/// errors below 0, moduli not above 0, and a pose that is no rigid motion.
+/// errors below 0, moduli not above 0, a pose that is no rigid motion, and a further camera that is
+/// there twice.
 Status FromCalibration(const idl::palpate_msgs::Calibration& message,
                        robot::CalibrationFile* calibration);
 

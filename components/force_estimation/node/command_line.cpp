@@ -3,6 +3,7 @@
 
 #include "components/force_estimation/node/command_line.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,18 +32,26 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
-/// The cameras beside the first, with the poses of the calibration where the settings give none. A
-/// pose in the settings overrides that of the calibration and its depth bias.
-std::vector<dds::FurtherCamera> FurtherCamerasOf(const NodeConfig& config,
+/// The cameras beside the first, with the poses of the calibration (`file`; empty: none) where the
+/// settings give none. A pose in the settings overrides that of the calibration and its depth bias.
+std::vector<dds::FurtherCamera> FurtherCamerasOf(const NodeConfig& config, const std::string& file,
                                                  robot::CalibrationFile* calibration) {
   auto cameras = dds::ReadFurtherCameras(config.cameras, app::ParseYaml);
-  for (dds::FurtherCamera& camera : cameras) {
-    for (robot::CalibratedCamera& known : calibration->cameras) {
-      if (known.name != camera.name) continue;
-      if (camera.T_robot_camera) known.depth_bias.reset();
-      if (!camera.T_robot_camera) camera.T_robot_camera = known.pose.T_robot_camera;
-    }
+  if (file.empty()) return cameras;
+  std::vector<dds::FurtherCamera> calibrated;
+  for (const robot::CalibratedCamera& camera : calibration->cameras) {
+    calibrated.push_back({camera.name, camera.pose.T_robot_camera});
   }
+  dds::CameraMatch match = dds::MatchCameras(dds::NamesOf(cameras), dds::NamesOf(calibrated));
+  match.missing.clear();
+  if (!match.unknown.empty() && IsFromShape(config))
+    app::LogWarning("{}: {}", file, Describe(match));
+  std::erase_if(calibration->cameras, [&](const robot::CalibratedCamera& known) {
+    return std::any_of(cameras.begin(), cameras.end(), [&](const dds::FurtherCamera& camera) {
+      return camera.name == known.name && camera.T_robot_camera;
+    });
+  });
+  dds::TakePoses(calibrated, file, &cameras);
   return cameras;
 }
 
@@ -103,7 +112,7 @@ std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
     model = LoadRobot(command.robot, solver, &calibration);
     Calibrate(&calibration, model.get(), &config);
   }
-  const auto cameras = FurtherCamerasOf(config, &calibration);
+  const auto cameras = FurtherCamerasOf(config, command.calibration.string(), &calibration);
   return std::make_unique<ForceEstimationNode>(
       config, std::move(model), calibration, command.options.domain_id,
       dds::LoadTopicTable(config.dds, app::LoadYaml, app::ParseYaml), app::Log, PipelineMaker(),

@@ -201,17 +201,28 @@ void ForceEstimationNode::TakeCalibration() {
   for (const CalibrationInput::Verdict& verdict : calibration_.Take()) {
     if (verdict.status.ok()) {
       robot::CalibrationFile calibration = verdict.calibration;
-      if (!cameras_.empty()) {
-        // Of cameras that were calibrated together none may move alone.
-        calibration.pose.reset();
-        calibration.depth_bias.reset();
-      }
+      KeepPosesOfAll(&calibration);
       Adopt(calibration);
     } else {
       ++counts_.refused;
       log_.WarnRepeatedly("/calibration refused: " + verdict.status.message());
     }
   }
+}
+
+/// Without the camera poses and depth biases where they are not of all cameras.
+void ForceEstimationNode::KeepPosesOfAll(robot::CalibrationFile* calibration) {
+  if (!calibration->pose) return calibration->cameras.clear();
+  std::vector<std::string> names;
+  for (const robot::CalibratedCamera& camera : calibration->cameras) names.push_back(camera.name);
+  const dds::CameraMatch match = dds::MatchCameras(dds::NamesOf(cameras_), names);
+  if (const std::string text = Describe(match); !text.empty()) {
+    log_.WarnRepeatedly("/calibration: " + text);
+  }
+  if (match.missing.empty()) return;
+  calibration->pose.reset();
+  calibration->depth_bias.reset();
+  calibration->cameras.clear();
 }
 
 /// Holds from the next frame on. Frames that wait are refused: they were measured, and their cable
@@ -231,6 +242,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   if (calibration.pose) {
     in_use_.pose = calibration.pose;
     in_use_.depth_bias = calibration.depth_bias;
+    in_use_.cameras = calibration.cameras;
   }
   if (!calibration.moduli.empty()) in_use_.moduli = calibration.moduli;
   calibration_pending_ = std::make_shared<NewCalibration>(

@@ -50,6 +50,7 @@ class ForceEstimationNode {
   void TakeJointStates();
   void ExpectPosture(std::int64_t stamp_ns);
   void TakeCalibration();
+  void KeepPosesOfAll(robot::CalibrationFile* calibration);
   void Adopt(const robot::CalibrationFile& calibration);
   void CorrectForces(const std::vector<robot::CalibratedPressureSensor>& sensors);
   std::unique_ptr<FrameSource> MakeSource();
@@ -88,7 +89,7 @@ class ForceEstimationNode {
   Outputs outputs_;
   dds::Reader<idl::sensor_msgs::JointState> joint_states_;
   CalibrationInput calibration_;
-  robot::CalibrationFile in_use_;   ///< its moduli, pose and depth bias
+  robot::CalibrationFile in_use_;   ///< its moduli, poses and depth biases
   std::deque<FrameInput> pending_;  ///< frames that wait for the cable inputs of their time
   bool has_frame_ = false;          ///< one was accepted
   Clock::time_point last_posture_;  ///< when one was asked for

@@ -39,9 +39,8 @@ struct NodeConfig : Config {
       "w]}\"; needed for the shape, unless /calibration or /tf say it");
     v("cameras", cameras,
       "Depth cameras beside the first, as perception has them: \"NAME: {translation_m: [x, y, z], "
-      "rotation_xyzw: [x, y, z, w]}\", or \"NAME\" where --calibration has its pose; of "
-      "/calibration "
-      "the camera pose and depth bias do not count then");
+      "rotation_xyzw: [x, y, z, w]}\", or \"NAME\" where --calibration has its pose; the camera "
+      "poses of /calibration count where it has those of all cameras");
     v("follow_calibration", follow_calibration,
       "Use camera pose, actuator offsets and moduli of /calibration from the next frame on, "
       "which begins a sequence; false: keep those of the start");

@@ -14,6 +14,7 @@
 #include "libs/dds/camera_topics.hpp"
 #include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/depth_picture.hpp"
+#include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -22,34 +23,6 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-
-/// Sorts points by the camera that saw them, and maps those of further cameras into its frame.
-/// kInvalidInput for a camera beyond `clouds`.
-Status Split(const dds::JoinedCloud& joined, const std::vector<Eigen::Isometry3d>& T_camera_first,
-             std::vector<rgbd::SensedCloud>* clouds) {
-  std::vector<std::vector<Eigen::Index>> columns(clouds->size());
-  for (std::size_t i = 0; i < joined.cameras.size(); ++i) {
-    const std::size_t camera = joined.cameras[i];
-    if (camera >= columns.size()) {
-      return {StatusCode::kInvalidInput, "a point of camera " + std::to_string(camera) +
-                                             ": the settings have " +
-                                             std::to_string(columns.size()) + " cameras"};
-    }
-    columns[camera].push_back(ToIndex(i));
-  }
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    rgbd::SensedCloud& cloud = (*clouds)[k];
-    cloud.points_m = joined.points.points_m(Eigen::all, columns[k]);
-    cloud.sigma_m = joined.points.sigma_m(columns[k]);
-    for (const Eigen::Index i : columns[k]) {
-      const auto rgb = joined.points.colors_rgb.begin() + 3 * i;
-      cloud.colors_rgb.insert(cloud.colors_rgb.end(), rgb, rgb + 3);
-    }
-    if (k == 0) continue;
-    cloud.points_m = (T_camera_first[k - 1] * cloud.points_m.cast<double>()).cast<float>().eval();
-  }
-  return Status::Ok();
-}
 
 }  // namespace
 
@@ -99,14 +72,16 @@ uint32_t ShapeSource::incompatible_qos() const {
 bool ShapeSource::Parts::is_complete() const {
   const bool all = std::all_of(further.begin(), further.end(),
                                [](const auto& of_camera) { return of_camera.has_value(); });
-  return clouds && report && contacts && all;
+  return cloud && report && contacts && all;
 }
 
 /// Incomplete frames are dropped: they were taken from the old camera pose.
 void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
   for (const auto& further : further_) {
     for (const robot::CalibratedCamera& camera : calibration.cameras) {
-      if (camera.name == further->name) further->depth_bias = camera.depth_bias;
+      if (camera.name != further->name) continue;
+      further->T_robot_camera = camera.pose.T_robot_camera;
+      further->depth_bias = camera.depth_bias;
     }
   }
   if (!calibration.pose) return;
@@ -138,42 +113,44 @@ void ShapeSource::TakeClouds() {
     Parts* parts = PartsAt(dds::StampNs(message.header.stamp));
     if (!parts) continue;
     Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
-    if (status.ok()) status = FromCloud(message, &parts->clouds.emplace());
-    if (status.ok()) status = CheckIsNew(message, *parts->clouds);
+    if (status.ok()) status = FromCloud(message, &parts->cloud.emplace());
+    if (status.ok()) status = CheckIsNew(message, parts->cloud->points);
     if (!status.ok()) {
-      parts->clouds.emplace(1 + further_.size());
+      parts->cloud.emplace();
       parts->status = {status.code(), "/perception/robot_cloud: " + status.message()};
     }
   }
   HandOverComplete();
 }
 
-/// The points of each camera, in its own frame.
 Status ShapeSource::FromCloud(const idl::sensor_msgs::PointCloud2& message,
-                              std::vector<rgbd::SensedCloud>* clouds) const {
-  clouds->assign(1 + further_.size(), {});
-  if (further_.empty()) return dds::FromPointCloud2(message, &clouds->front());
-  dds::JoinedCloud joined;
-  if (Status status = dds::FromJoinedPointCloud2(message, &joined); !status.ok()) return status;
-  std::vector<Eigen::Isometry3d> T_camera_first;
-  for (const auto& camera : further_) {
-    T_camera_first.push_back(camera->T_robot_camera.inverse() *
-                             T_robot_camera_.value_or(Eigen::Isometry3d::Identity()));
+                              dds::JoinedCloud* cloud) const {
+  if (further_.empty()) return dds::FromPointCloud2(message, &cloud->points);
+  return dds::FromJoinedPointCloud2(message, cloud);
+}
+
+/// By the poses of perception when it joined them: a calibration may have come since.
+void ShapeSource::SplitCloud(Parts* parts) const {
+  if (further_.empty()) {
+    parts->clouds.push_back(std::move(parts->cloud->points));
+    return;
   }
-  return Split(joined, T_camera_first, clouds);
+  std::vector<Eigen::Isometry3d> T_camera_first;
+  for (const std::optional<Report>& report : parts->further) {
+    T_camera_first.push_back(report->T_first_camera.inverse());
+  }
+  const Status status = dds::SplitCloud(*parts->cloud, T_camera_first, &parts->clouds);
+  if (!status.ok()) {
+    parts->status = {status.code(), "/perception/robot_cloud: " + status.message()};
+  }
 }
 
 /// Points that come again under a new stamp are no measurement: forces of them would be those of
 /// the past.
 Status ShapeSource::CheckIsNew(const idl::sensor_msgs::PointCloud2& message,
-                               const std::vector<rgbd::SensedCloud>& clouds) {
-  Eigen::Index count = 0;
-  double sum_m = 0.0;
-  for (const rgbd::SensedCloud& cloud : clouds) {
-    count += cloud.Count();
-    if (cloud.Count() > 0) sum_m += static_cast<double>(cloud.points_m.row(2).mean());
-  }
-  if (count == 0) return Status::Ok();
+                               const rgbd::SensedCloud& points) {
+  if (points.Count() == 0) return Status::Ok();
+  const auto sum_m = static_cast<double>(points.points_m.row(2).mean());
   const std::string_view bytes(reinterpret_cast<const char*>(message.data._buffer),
                                message.data._length);
   if (!repetition_.IsRepeated(bytes, sum_m)) return Status::Ok();
@@ -194,8 +171,12 @@ void ShapeSource::TakeReports(dds::Reader<idl::palpate_msgs::PerceptionReport>& 
                     message.frame_counter,
                     StatusOfPerception(message),
                     message.age_s,
-                    {}};
-    const Status status = FromTexture(message, &report->texture);
+                    {},
+                    Eigen::Isometry3d::Identity()};
+    Status status = FromTexture(message, &report->texture);
+    if (further && !dds::FromPose(message.camera_in_first, &report->T_first_camera)) {
+      status = {StatusCode::kInvalidInput, "camera_in_first is no pose"};
+    }
     if (!status.ok()) {
       parts->status = {status.code(), reader.ros_name() + ": " + status.message()};
     }
@@ -250,6 +231,7 @@ void ShapeSource::HandOverComplete() {
 }
 
 FrameArrival ShapeSource::ArrivalOf(Parts parts) {
+  SplitCloud(&parts);
   const Report& report = *parts.report;
   FrameArrival arrival;
   arrival.sequence = SequenceOf(report.origin);
@@ -294,7 +276,7 @@ Status ShapeSource::Check(const Parts& parts) const {
     }
   }
   // Perception has seen the robot where any camera does.
-  const bool is_seen = further_.empty() || parts.clouds->front().Count() > 0;
+  const bool is_seen = further_.empty() || parts.clouds.front().Count() > 0;
   if (!depth_bias_ || !parts.report->perception.ok() || !is_seen) return Status::Ok();
   return robot::CheckDepthPicture(*depth_bias_, parts.report->origin.picture);
 }
@@ -313,7 +295,7 @@ FrameInput ShapeSource::InputOf(Parts parts) const {
     shape.frame.views[k + 1].texture = std::move(parts.further[k]->texture);
   }
   for (std::size_t k = 0; k < shape.frame.views.size(); ++k) {
-    shape.frame.views[k].cloud = std::move((*parts.clouds)[k]);
+    shape.frame.views[k].cloud = std::move(parts.clouds[k]);
   }
   shape.frame.epoch = parts.report->origin.epoch;
   shape.frame.contacts = std::move(*parts.contacts);

@@ -13,6 +13,7 @@
 
 #include "components/force_estimation/node/frame_source.hpp"
 #include "libs/core/repetition_check.hpp"
+#include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/driver_topics.hpp"
 #include "libs/dds/further_cameras.hpp"
 #include "libs/dds/participant.hpp"
@@ -34,7 +35,8 @@ class ShapeSource : public FrameSource {
               const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take,
               const std::vector<dds::FurtherCamera>& cameras = {});
 
-  /// Frames of other images than the calibration's depth bias is for are refused.
+  /// Takes the camera poses and depth biases that it holds. Frames of other images than its depth
+  /// bias is for are refused.
   void SetCalibration(const robot::CalibrationFile& calibration) override;
 
   void ExpectInputs(dds::InputMonitor& inputs) const override;
@@ -59,12 +61,15 @@ class ShapeSource : public FrameSource {
     Status perception;
     double age_s = 0.0;  ///< of the frame, when it was sent
     rgbd::TexturePoints texture;
+    /// By which perception put the points of a further camera into the frame of the first.
+    Eigen::Isometry3d T_first_camera = Eigen::Isometry3d::Identity();
   };
   /// The parts of a frame that have come so far.
   struct Parts {
     int64_t stamp_ns = 0;
-    Status status = Status::Ok();                          ///< of the last part that is invalid
-    std::optional<std::vector<rgbd::SensedCloud>> clouds;  ///< of each camera, in its frame
+    Status status = Status::Ok();           ///< of the last part that is invalid
+    std::optional<dds::JoinedCloud> cloud;  ///< of all cameras, in the frame of the first
+    std::vector<rgbd::SensedCloud> clouds;  ///< of each camera, in its frame, once complete
     std::optional<Report> report;
     std::vector<std::optional<Report>> further;  ///< of the cameras beside the first
     std::optional<std::vector<SeenContact>> contacts;
@@ -80,16 +85,15 @@ class ShapeSource : public FrameSource {
   };
 
   void TakeClouds();
-  Status FromCloud(const idl::sensor_msgs::PointCloud2& message,
-                   std::vector<rgbd::SensedCloud>* clouds) const;
-  Status CheckIsNew(const idl::sensor_msgs::PointCloud2& message,
-                    const std::vector<rgbd::SensedCloud>& clouds);
+  Status FromCloud(const idl::sensor_msgs::PointCloud2& message, dds::JoinedCloud* cloud) const;
+  Status CheckIsNew(const idl::sensor_msgs::PointCloud2& message, const rgbd::SensedCloud& points);
   void TakeReports(dds::Reader<idl::palpate_msgs::PerceptionReport>& reader,
                    std::optional<std::size_t> further);
   void TakeContacts();
   void TakeTransforms(dds::Reader<idl::tf2_msgs::TFMessage>& reader);
   Parts* PartsAt(int64_t stamp_ns);
   void HandOverComplete();
+  void SplitCloud(Parts* parts) const;
   FrameArrival ArrivalOf(Parts parts);
   std::optional<SequenceStart> SequenceOf(const Origin& origin);
   Status Check(const Parts& parts) const;

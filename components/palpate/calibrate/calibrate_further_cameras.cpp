@@ -3,11 +3,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "components/calibration/joint/request_after.hpp"
 #include "components/offline/forces/pressure_correction.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
@@ -20,32 +19,6 @@ namespace {
 
 void NoteLeftOut(const std::string& name, const std::string& why) {
   fmt::print(stderr, "note: camera '{}' is not calibrated: {}\n", name, why);
-}
-
-/// The largest; 0: there is none.
-double ErrorOf(const std::vector<robot::CalibratedPressureSensor>& sensors,
-               std::optional<robot::CalibratedNumber> robot::CalibratedPressureSensor::*number) {
-  double error = 0.0;
-  for (const robot::CalibratedPressureSensor& sensor : sensors) {
-    if (sensor.*number) error = std::max(error, (sensor.*number)->standard_error);
-  }
-  return error;
-}
-
-/// What the first camera, and markers, left open counts in the further ones: their fit estimates
-/// the offsets, zeros and gains again, with the standard errors so far as priors.
-calibration::JointRequest RequestAfter(const robot::CalibrationFile& file) {
-  double sigma_m = 0.0;
-  for (const robot::CalibratedDrive& drive : file.drives) {
-    sigma_m = std::max(sigma_m, drive.standard_error.offset_m);
-  }
-  calibration::JointRequest request;
-  request.actuator_offsets = sigma_m > 0.0;
-  if (request.actuator_offsets) request.actuator_offset_sigma_m = sigma_m;
-  using Sensor = robot::CalibratedPressureSensor;
-  request.pressure_zero_sigma_Pa = ErrorOf(file.pressure_sensors, &Sensor::zero_Pa);
-  request.pressure_gain_sigma = ErrorOf(file.pressure_sensors, &Sensor::gain);
-  return request;
 }
 
 /// The options but for those of the first camera's pose.
@@ -78,7 +51,7 @@ void CalibrateFurtherCameras(const CalibrateOptions& options,
     }
     if (!options.json) fmt::print("camera '{}':\n", name);
     calibration::CloudSettings clouds;
-    clouds.request = RequestAfter(*file);
+    clouds.request = calibration::RequestAfter(*file);
     clouds.request.pose_prior = PriorOf(own, alone);
     try {
       const ImageCalibration found = FitImages(own, alone, *alone.T_robot_camera, clouds, model);

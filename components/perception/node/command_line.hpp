@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -11,7 +12,9 @@
 
 namespace palpate::perception {
 
-using Command = app::NodeCommand<NodeConfig>;
+struct Command : app::NodeCommand<NodeConfig> {
+  std::filesystem::path calibration;  ///< empty: poses are those of the settings
+};
 
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);

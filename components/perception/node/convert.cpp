@@ -96,6 +96,7 @@ dds::Message<idl::palpate_msgs::PerceptionReport> ReportWithoutNotes(const Frame
   report->thinned = static_cast<std::uint64_t>(frame.rejected.thinned);
   SetTexture(view.texture, *report);
   report->prediction_stamp = dds::TimeFromNs(outcome.prediction_stamp_ns);
+  report->camera_in_first = dds::ToPose(origin.T_first_camera);
   return report;
 }
 
@@ -170,6 +171,7 @@ std::string FrameOutcome::NameOf(std::size_t camera) const {
 dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& outcome) {
   auto report = ReportWithoutNotes(outcome, 0, geometry::kCameraDepthOpticalFrame);
   std::vector<std::string> notes = outcome.observation.views[0].frame.notes;
+  notes.insert(notes.end(), outcome.notes.begin(), outcome.notes.end());
   if (outcome.cameras.size() == 1) {
     SetNotes(notes, *report);
     return report;

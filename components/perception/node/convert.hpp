@@ -58,6 +58,7 @@ struct FrameOutcome {
   std::vector<CameraOrigin> cameras;     ///< of which there is one at least
   std::int64_t prediction_stamp_ns = 0;  ///< 0: none was used
   JointObservation observation;          ///< of the same cameras
+  std::vector<std::string> notes;        ///< of the process, beside those of the observation
 
   /// Of `camera` of the cameras, in words: "the first camera", "camera 'back'".
   std::string NameOf(std::size_t camera) const;

@@ -30,20 +30,20 @@ dds::NodeSettings NamesOf(const NodeConfig& config) {
   return settings;
 }
 
-std::vector<Eigen::Isometry3d> PosesOf(const std::vector<dds::FurtherCamera>& cameras) {
-  std::vector<Eigen::Isometry3d> poses;
+const std::vector<dds::FurtherCamera>& WithPoses(const std::vector<dds::FurtherCamera>& cameras) {
   for (const dds::FurtherCamera& camera : cameras) {
-    if (!camera.T_robot_camera) {
-      throw InputError("cameras: where is '" + camera.name + "'? Its pose belongs behind its name");
-    }
-    poses.push_back(*camera.T_robot_camera);
+    if (camera.T_robot_camera) continue;
+    throw InputError("cameras: where is '" + camera.name +
+                     "'? Its pose belongs behind its name, or in the file of --calibration");
   }
-  return poses;
+  return cameras;
 }
 
 void CheckSettings(const NodeConfig& config, bool has_pose, bool has_further_cameras) {
   if (!has_further_cameras) return;
-  if (!has_pose) throw InputError("cameras: camera_pose is required beside further cameras");
+  if (!has_pose) {
+    throw InputError("cameras: camera_pose or --calibration is required beside further cameras");
+  }
   if (config.camera.source != "capture") {
     throw InputError("cameras: further cameras need camera.source capture");
   }
@@ -55,10 +55,10 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
                                std::optional<Eigen::Isometry3d> T_robot_camera,
                                FramePerceptionMaker maker, int domain_id, dds::TopicTable table,
                                dds::NodeLog::ProcessLog process_log,
-                               const std::vector<dds::FurtherCamera>& cameras)
+                               const std::vector<dds::FurtherCamera>& cameras,
+                               const PoseOrigin& origin)
     : config_{config},
-      pose_{std::move(T_robot_camera)},
-      further_poses_{PosesOf(cameras)},
+      pose_{std::move(T_robot_camera), WithPoses(cameras), origin},
       participant_{dds::ParticipantOf(NamesOf(config), "palpate_perception", domain_id),
                    std::move(table)},
       loop_{participant_},
@@ -71,6 +71,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       outputs_{participant_, !config.markers.color_rgb.empty(), dds::NamesOf(cameras)},
       transforms_{participant_},
       feeds_{MakeFeeds(cameras)},
+      clocks_{feeds_.size()},
       joining_{feeds_.size(), FromSeconds(config.camera_wait_s)},
       worker_{
           {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
@@ -110,8 +111,7 @@ std::vector<CameraFeed> PerceptionNode::MakeFeeds(const std::vector<dds::Further
 void PerceptionNode::AttachReaders() {
   loop_.Attach(meshes_, [this] { TakeMesh(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
-  // The cameras are calibrated together, and a message has the pose of the first alone.
-  if (!config_.follow_calibration || !further_poses_.empty()) return;
+  if (!config_.follow_calibration) return;
   loop_.Attach(calibrations_, [this] { TakeCalibration(); });
 }
 
@@ -136,9 +136,15 @@ void PerceptionNode::TakeMesh() {
 void PerceptionNode::TakeCalibration() {
   for (const auto& message : calibrations_.Take()) {
     const Status status = pose_.Take(message);
-    if (status.ok()) continue;
-    ++counts_.refused;
-    log_.WarnRepeatedly("/calibration refused: " + status.message());
+    if (!status.ok()) {
+      ++counts_.refused;
+      log_.WarnRepeatedly("/calibration refused: " + status.message());
+      continue;
+    }
+    notes_.clear();
+    const std::string unknown =
+        Describe(dds::MatchCameras(dds::NamesOf(pose_.further()), FurtherCamerasOf(message)));
+    if (message.has_camera && !unknown.empty()) notes_.push_back("/calibration: " + unknown);
   }
   AdoptCalibration();
 }
@@ -189,7 +195,9 @@ void PerceptionNode::Advance() {
   WorkOnNext();
   const Clock::time_point now = Clock::now();
   for (std::size_t k = 0; k < feeds_.size(); ++k) {
-    while (auto set = feeds_[k].streams().Take(now)) joining_.Add(k, std::move(*set));
+    while (auto set = feeds_[k].streams().Take(now)) {
+      if (MapToFirst(k, &*set)) joining_.Add(k, std::move(*set));
+    }
   }
   while (auto set = joining_.Take(now)) {
     if (next_) ++counts_.dropped;
@@ -197,6 +205,26 @@ void PerceptionNode::Advance() {
     WorkOnNext();
   }
   SetAlarm();
+}
+
+/// Maps the times of a set to the clock of the first camera. False where that is not known: the
+/// camera is left out.
+bool PerceptionNode::MapToFirst(std::size_t camera, FrameSet* set) {
+  if (feeds_.size() == 1) return true;
+  if (!clocks_.IsHeard(camera)) HearClock(camera);
+  if (!clocks_.Check(camera).ok()) {
+    ++counts_.dropped;
+    return false;
+  }
+  const std::int64_t shift_ns = clocks_.ToFirst_ns(camera);
+  set->stamp_ns += shift_ns;
+  if (set->facts && set->facts->received_ns != 0) set->facts->received_ns += shift_ns;
+  return true;
+}
+
+void PerceptionNode::HearClock(std::size_t camera) {
+  const std::string& topic = feeds_[camera].streams().depths().ros_name();
+  clocks_.Hear(camera, health_.ClockOf(topic), Clock::now());
 }
 
 void PerceptionNode::WorkOnNext() {
@@ -257,14 +285,23 @@ PerceptionJob PerceptionNode::MakeJob(JointSet& set) {
   job.outcome.stamp_ns = set.stamp_ns;
   job.taken = set.taken;
   job.begins = BeginsSequence(set);
+  job.outcome.notes = notes_;
+  // At the start alone: later, a camera that comes back must not stop the others.
+  const Status wait = last_stamp_ns_ ? Status::Ok() : clocks_.CheckWait(Clock::now());
   std::vector<rgbd::RgbdCamera> known(feeds_.size());
   bool is_usable = false;
   for (std::size_t k = 0; k < feeds_.size(); ++k) {
     std::optional<FrameSet>& of_camera = set.sets[k];
     CameraOrigin& origin =
         job.outcome.cameras.emplace_back(feeds_[k].OriginOf(of_camera ? &*of_camera : nullptr));
-    origin.status = of_camera ? Examine(k, *of_camera, job.begins, &known[k])
-                              : Status(StatusCode::kStale, "no image of this time");
+    if (!wait.ok()) {
+      origin.status = wait;
+    } else if (of_camera) {
+      origin.status = Examine(k, *of_camera, job.begins, &known[k]);
+    } else {
+      const Status clock = clocks_.Check(k);
+      origin.status = clock.ok() ? Status(StatusCode::kStale, "no image of this time") : clock;
+    }
     if (k > 0) origin.T_first_camera = PoseOf(0)->inverse() * *PoseOf(k);
     is_usable = is_usable || origin.status.ok();
   }
@@ -364,7 +401,7 @@ void PerceptionNode::Refuse(PerceptionJob job) {
 
 /// nullopt: it is not known, of the first camera.
 std::optional<Eigen::Isometry3d> PerceptionNode::PoseOf(std::size_t camera) const {
-  if (camera > 0) return further_poses_[camera - 1];
+  if (camera > 0) return pose_.further()[camera - 1].T_robot_camera;
   return pose_.T_robot_camera();
 }
 
@@ -396,12 +433,25 @@ void PerceptionNode::ReportHealth() {
       {"readers_of_contacts", std::to_string(outputs_.readers())},
       {"writers_of_depth", std::to_string(depths.matched())},
       {"incompatible_qos", std::to_string(depths.counters().incompatible_qos)}};
-  for (std::size_t k = 1; k < feeds_.size(); ++k) {
-    values.emplace_back("camera." + feeds_[k].name(), IsSilent(k) ? "missing" : "ok");
-  }
+  AppendCameras(&values);
   values.emplace_back("waiting_for", inputs_.Waiting());
   health_.Report(CurrentStatus(), counts, values, Clock::now());
   log_.WriteCounted();
+  for (std::size_t k = 0; k < feeds_.size() && feeds_.size() > 1; ++k) HearClock(k);
+}
+
+/// Of each camera beside the first whether it is used, and its clock where that is another one.
+void PerceptionNode::AppendCameras(dds::HealthReporter::KeysAndValues* values) const {
+  for (std::size_t k = 1; k < feeds_.size(); ++k) {
+    const std::string& name = feeds_[k].name();
+    const bool is_joined = clocks_.Check(k).ok();
+    values->emplace_back("camera." + name, IsSilent(k) ? "missing" : is_joined ? "ok" : "left_out");
+    const auto to_first = clocks_.ToFirst(k);
+    if (!to_first) continue;
+    // Its clock minus that of the first, as the offsets of hosts.
+    values->emplace_back("camera_clock_offset_s." + name, FormatNumber(-to_first->offset_s));
+    values->emplace_back("camera_clock_offset_bound_s." + name, FormatNumber(to_first->bound_s));
+  }
 }
 
 /// No camera sends.
@@ -447,6 +497,11 @@ Status PerceptionNode::CurrentStatus() {
   }
   if (const std::string missing = MissingCameras(); was_there && !missing.empty()) {
     return {StatusCode::kStale, "no depth images of " + missing + ": the others go on"};
+  }
+  for (std::size_t k = 1; k < feeds_.size(); ++k) {
+    const Status clock = clocks_.Check(k);
+    if (clock.ok()) continue;
+    return {clock.code(), "camera '" + feeds_[k].name() + "' is left out: " + clock.message()};
   }
   if (!last_status_.ok()) return last_status_;
   if (!last_state_.ok()) {

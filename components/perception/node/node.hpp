@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "components/perception/node/camera_clocks.hpp"
 #include "components/perception/node/camera_feed.hpp"
 #include "components/perception/node/camera_pose.hpp"
 #include "components/perception/node/frame_joining.hpp"
@@ -33,11 +34,13 @@ namespace palpate::perception {
 class PerceptionNode {
  public:
   /// `T_robot_camera`: of the depth camera; nullopt: unknown. `cameras`: those beside it, each with
-  /// its pose. Throws InputError for bad settings, RunError where DDS refuses.
+  /// its pose. `origin`: where poses are of a calibration file. Throws InputError for bad settings,
+  /// RunError where DDS refuses.
   PerceptionNode(const NodeConfig& config, std::optional<Eigen::Isometry3d> T_robot_camera,
                  FramePerceptionMaker maker, int domain_id, dds::TopicTable table,
                  dds::NodeLog::ProcessLog process_log,
-                 const std::vector<dds::FurtherCamera>& cameras = {});
+                 const std::vector<dds::FurtherCamera>& cameras = {},
+                 const PoseOrigin& origin = {});
 
   /// Works until Stop().
   void Run() { loop_.Run(); }
@@ -56,6 +59,8 @@ class PerceptionNode {
   void SendPose();
   void TakeMeshStates();
   void Advance();
+  bool MapToFirst(std::size_t camera, FrameSet* set);
+  void HearClock(std::size_t camera);
   void WorkOnNext();
   void SetAlarm();
   bool BeginsSequence(const JointSet& set) const;
@@ -77,12 +82,13 @@ class PerceptionNode {
   bool IsSilent() const;
   bool IsSilent(std::size_t camera) const;
   std::string MissingCameras() const;
+  void AppendCameras(dds::HealthReporter::KeysAndValues* values) const;
   Clock::time_point LastDepth() const;
   Status CurrentStatus();
 
   NodeConfig config_;
-  CameraPose pose_;  ///< of the first camera
-  std::vector<Eigen::Isometry3d> further_poses_;
+  CameraPose pose_;
+  std::vector<std::string> notes_;  ///< on the calibration in use, for each report
   dds::Participant participant_;
   dds::WaitSet loop_;
   dds::Alarm& overdue_;  ///< the next part or prediction that is waited for no longer
@@ -94,6 +100,7 @@ class PerceptionNode {
   Outputs outputs_;
   dds::TransformBroadcaster transforms_;
   std::vector<CameraFeed> feeds_;  ///< of each camera, the first in front
+  CameraClocks clocks_;
   FrameJoining joining_;
   PredictionHistory predictions_;
   Worker worker_;

@@ -37,8 +37,10 @@ struct NodeConfig : Config {
       "Use the camera pose of /calibration where it is for the mesh of /robot/mesh");
     v("cameras", cameras,
       "Depth cameras beside the first, each \"NAME: {translation_m: [x, y, z], rotation_xyzw: [x, "
-      "y, z, w]}\", its pose in the robot frame; its topics are /camera_NAME/...; camera_pose is "
-      "required then, and /calibration is not followed");
+      "y, z, w]}\", its pose in the robot frame, or \"NAME\" where --calibration has it; its "
+      "topics "
+      "are /camera_NAME/...; camera_pose or --calibration is required then, and /calibration is "
+      "followed where it has the poses of all cameras");
     v("camera_wait_s", camera_wait_s, {.min = 0.0, .max = 10.0},
       "Longest wait of a camera's frame for those of the other cameras; after three frames in vain "
       "a camera is not waited for until it sends again");

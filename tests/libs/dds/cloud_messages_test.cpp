@@ -95,6 +95,23 @@ TEST(CloudMessage, OfSeveralCamerasHasTheCameraOfEachPoint) {
   EXPECT_EQ(first.points_m.col(0), cloud.points.points_m.col(0));
 }
 
+TEST(CloudMessage, IsSplitIntoTheCloudsOfItsCameras) {
+  const Eigen::Isometry3d T_back_first(Eigen::Translation3d(1.0, 2.0, 3.0));
+  std::vector<rgbd::SensedCloud> clouds;
+  ASSERT_TRUE(SplitCloud({TwoPoints(), {1, 0}}, {T_back_first}, &clouds).ok());
+  ASSERT_EQ(clouds.size(), 2u);
+  ASSERT_EQ(clouds[0].Count(), 1);
+  EXPECT_EQ(clouds[0].points_m.col(0), TwoPoints().points_m.col(1));
+  EXPECT_EQ(clouds[0].sigma_m[0], TwoPoints().sigma_m[1]);
+  ASSERT_EQ(clouds[1].Count(), 1);
+  EXPECT_TRUE(clouds[1].points_m.col(0).isApprox(TwoPoints().points_m.col(0) +
+                                                 Eigen::Vector3f(1.0f, 2.0f, 3.0f)));
+  EXPECT_EQ(clouds[1].sigma_m[0], TwoPoints().sigma_m[0]);
+  EXPECT_EQ(clouds[1].colors_rgb.size(), 3u);
+  EXPECT_THAT(SplitCloud({TwoPoints(), {0, 2}}, {T_back_first}, &clouds).message(),
+              HasSubstr("a point of camera 2: the settings have 2 cameras"));
+}
+
 TEST(CloudMessage, WithoutCamerasIsOfTheFirst) {
   JoinedCloud back;
   ASSERT_TRUE(FromJoinedPointCloud2(*ToPointCloud2(TwoPoints(), 7, "camera"), &back).ok());

@@ -46,6 +46,36 @@ TEST(FurtherCameras, RefusesWhatIsNoCamera) {
               HasSubstr("rotation_xyzw"));
 }
 
+TEST(FurtherCameras, TakePosesOfACalibrationWhereTheSettingsGiveNone) {
+  const auto at = [](double x_m) { return Eigen::Isometry3d(Eigen::Translation3d(x_m, 0.0, 0.0)); };
+  const std::vector<FurtherCamera> calibrated{{"back", at(1.0)}, {"top", at(2.0)}};
+  std::vector<FurtherCamera> cameras{{"back", std::nullopt}, {"top", at(3.0)}};
+  TakePoses(calibrated, "c.yaml", &cameras);
+  EXPECT_EQ(cameras[0].T_robot_camera->translation().x(), 1.0);
+  EXPECT_EQ(cameras[1].T_robot_camera->translation().x(), 3.0) << "that of the settings";
+  cameras = {{"bak", std::nullopt}};
+  try {
+    TakePoses(calibrated, "c.yaml", &cameras);
+    ADD_FAILURE() << "'bak' was accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "cameras: 'bak' is not in c.yaml (did you mean 'back'?); calibrate it, or write "
+                 "its pose behind its name");
+  }
+}
+
+TEST(FurtherCameras, AreMatchedWithThoseOfACalibration) {
+  const CameraMatch both = MatchCameras({"back", "top"}, {"back", "left"});
+  EXPECT_THAT(both.missing, ElementsAre("top"));
+  EXPECT_THAT(both.unknown, ElementsAre("left"));
+  EXPECT_EQ(Describe(both),
+            "it has no pose of camera 'top': its poses and depth biases do not count, calibrate "
+            "all cameras together; it has camera 'left', not in the setting 'cameras'");
+  EXPECT_EQ(Describe(MatchCameras({"back", "top"}, {"top", "back"})), "");
+  EXPECT_EQ(Describe(MatchCameras({}, {"back", "top"})),
+            "it has cameras 'back', 'top', not in the setting 'cameras'");
+}
+
 TEST(CameraTopics, AreThoseOfTheFirstWithoutANameAndOfTheNamedOneWithIt) {
   const CameraTopics first = TopicsOf("");
   EXPECT_EQ(first.depth.name, "/camera/depth/image_raw");

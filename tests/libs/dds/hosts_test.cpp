@@ -161,6 +161,64 @@ TEST(HealthReporter, GivesTheNodeTheClockOfTheFrames) {
   EXPECT_NEAR(1e-9 * static_cast<double>(clock.CableStampOfFrames_ns(0)), 2.5, 0.5);
 }
 
+/// It stays where the host is gone: frames of further cameras are on that clock, too.
+TEST(HealthReporter, KeepsTheClockOfTheFramesWhereItsHostIsGone) {
+  constexpr std::int64_t kAhead_ns = 2'500'000'000;
+  TestNode model("model");
+  HealthReporter health(model.participant, "force_estimation", SteadyClock::now());
+  RosClock& clock = *model.participant.clock();
+  const auto ahead_s = [&] {
+    return 1e-9 * static_cast<double>(clock.NowOfFrames_ns() - clock.Now_ns());
+  };
+  std::optional<ClockOffsets> other;
+  std::optional<TestNode> camera;
+  camera.emplace("camera");
+  other.emplace(camera->participant, Host{"b", "lab2"}, [] { return WallNow_ns() + kAhead_ns; });
+  model.loop.Every(std::chrono::milliseconds(20), [&] {
+    health.Report(Status::Ok(), {}, {}, SteadyClock::now());
+    // In place of the host that is gone: one that stamps nothing.
+    other->Send(camera ? std::vector<std::string>{"/camera/frame_info"}
+                       : std::vector<std::string>());
+  });
+  ASSERT_TRUE(model.WaitFor([&] { return ahead_s() > 1.0; }));
+  TestNode after("after");
+  other.emplace(after.participant, Host{"c", "lab3"});
+  camera.reset();
+  int reports = 0;
+  model.loop.Every(std::chrono::milliseconds(20), [&] { ++reports; });
+  ASSERT_TRUE(model.WaitFor([&] { return reports > 20; }));
+  EXPECT_NEAR(ahead_s(), 2.5, 0.5);
+}
+
+TEST(HealthReporter, KnowsWhichClockStampsATopic) {
+  constexpr std::int64_t kAhead_ns = 2'500'000'000;
+  TestNode here("here");
+  setenv("PALPATE_HOST", "lab2", 1);
+  TestNode there("there");
+  unsetenv("PALPATE_HOST");
+  HealthReporter health(here.participant, "perception", SteadyClock::now());
+  ClockOffsets other(there.participant, {"lab2", "lab2"}, [] { return WallNow_ns() + kAhead_ns; });
+  TestNode near("near");
+  const auto far_images = there.participant.CreateWriter(kDepthImageTopic);
+  const auto near_infos = near.participant.CreateWriter(kFrameInfoTopic);
+  EXPECT_FALSE(health.ClockOf("/robot/joint_states"));
+  here.loop.Every(std::chrono::milliseconds(20), [&] {
+    health.Report(Status::Ok(), {}, {}, SteadyClock::now());
+    other.Send({});
+  });
+  std::optional<StampClock> far, own;
+  ASSERT_TRUE(here.WaitFor([&] {
+    far = health.ClockOf("/camera/depth/image_raw");
+    own = health.ClockOf("/camera/frame_info");
+    return far && far->offset && own;
+  }));
+  EXPECT_EQ(far->host.name, "lab2");
+  EXPECT_NEAR(far->offset->offset_s, 2.5, far->offset->bound_s + 1e-3);
+  EXPECT_EQ(own->host.id, ThisHost().id);
+  ASSERT_TRUE(own->offset);
+  EXPECT_EQ(own->offset->offset_s, 0.0);
+}
+
 /// A participant that says it is `process`, with a writer of /forces.
 struct OtherProcess {
   explicit OtherProcess(const ProcessIdentity& process, const std::string& ros_name = "/forces") {

@@ -96,6 +96,31 @@ TEST_F(CalibratedDepthBiasTest, OfFurtherCamerasIsReadAsItWasWritten) {
   EXPECT_FALSE(read.cameras[1].depth_bias);
 }
 
+TEST_F(CalibratedDepthBiasTest, RefusesFurtherCamerasThatAreNone) {
+  CalibrationFile written = Example();
+  written.cameras.resize(2);
+  const auto refusal = [&](const std::string& one, const std::string& other) {
+    written.cameras[0].name = one;
+    written.cameras[1].name = other;
+    WriteCalibrationFile(written, file_);
+    try {
+      ReadCalibrationFile(file_, app::LoadYaml);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal("back", "left_2"), "accepted");
+  EXPECT_THAT(refusal("back", "back"),
+              AllOf(testing::ContainsRegex("calibration.yaml:[0-9]+:[0-9]+"),
+                    HasSubstr("camera 'back' again"), HasSubstr("remove one")));
+  for (const std::string name : {"", "2nd", "back/left", "_back", "back left"}) {
+    EXPECT_THAT(refusal("back", name),
+                AllOf(testing::ContainsRegex("calibration.yaml:[0-9]+:[0-9]+"),
+                      HasSubstr("'" + name + "'"), HasSubstr("a letter first")));
+  }
+}
+
 TEST_F(CalibratedDepthBiasTest, RefusesABlockThatIsNone) {
   EXPECT_THAT(RefusalWith("width_px: 848", "width_px: 0"), HasSubstr("width_px"));
   EXPECT_THAT(RefusalWith("fx_px: 425.1", "fx_px: -425.1"), HasSubstr("fx_px"));

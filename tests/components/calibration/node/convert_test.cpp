@@ -43,6 +43,12 @@ robot::CalibrationFile SomeCalibration() {
                                  .map = {.basis = {.order = 1, .span = 0.3},
                                          .coefficients = Eigen::Vector3d(1e-3, 2e-3, -3e-3),
                                          .covariance = 1e-6 * root * root.transpose()}};
+  file.cameras.resize(2);
+  file.cameras[0] = {.name = "back", .pose = pose, .depth_bias = file.depth_bias};
+  file.cameras[0].pose.T_robot_camera.translation().x() = -1.0;
+  file.cameras[0].pose.rotation_error_rad = {0.04, 0.05, 0.06};
+  file.cameras[0].depth_bias->map.coefficients[0] = 4e-3;
+  file.cameras[1].name = "top";
   file.drives = {{"top", {1e-3, 0.02}, {2e-4, 0.01}}};
   file.pressure_sensors = {
       {.chamber = "bend",
@@ -132,6 +138,43 @@ TEST(ConvertCalibration, ComesOutAtTheOtherEndAsItWentIn) {
   EXPECT_EQ(got.degrees_of_freedom, 11);
 }
 
+TEST(ConvertCalibration, FurtherCamerasComeOutAtTheOtherEndAsTheyWentIn) {
+  const robot::CalibrationFile sent = SomeCalibration();
+  robot::CalibrationFile got;
+  ASSERT_TRUE(force_estimation::FromCalibration(*SomeMessage(), &got).ok());
+  ASSERT_EQ(got.cameras.size(), 2u);
+  EXPECT_EQ(got.cameras[0].name, "back");
+  EXPECT_TRUE(
+      got.cameras[0].pose.T_robot_camera.isApprox(sent.cameras[0].pose.T_robot_camera, 1e-14));
+  EXPECT_TRUE(got.cameras[0].pose.rotation_error_rad.isApprox(
+      sent.cameras[0].pose.rotation_error_rad, 1e-12));
+  EXPECT_TRUE(got.cameras[0].pose.translation_error_m.isApprox(
+      sent.cameras[0].pose.translation_error_m, 1e-12));
+  ASSERT_TRUE(got.cameras[0].depth_bias);
+  EXPECT_EQ(got.cameras[0].depth_bias->picture, sent.depth_bias->picture);
+  EXPECT_EQ(got.cameras[0].depth_bias->map.coefficients,
+            sent.cameras[0].depth_bias->map.coefficients);
+  EXPECT_EQ(got.cameras[0].depth_bias->map.covariance, sent.depth_bias->map.covariance);
+  EXPECT_EQ(got.cameras[1].name, "top");
+  EXPECT_FALSE(got.cameras[1].depth_bias);
+}
+
+TEST(ConvertCalibration, RefusesFurtherCamerasThatAreNone) {
+  robot::CalibrationFile got;
+  auto message = SomeMessage();
+  message->cameras._buffer[0].camera_in_robot.orientation.w = 3.0;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(),
+              HasSubstr("camera 'back': camera_in_robot is no pose"));
+  message = SomeMessage();
+  message->cameras._buffer[0].depth_bias.covariance._length = 80;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(),
+              HasSubstr("camera 'back': depth_bias has no covariance"));
+  message = SomeMessage();
+  dds::SetText(message->cameras._buffer[1].name, "back");
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(),
+              HasSubstr("camera 'back' is there twice"));
+}
+
 TEST(ConvertCalibration, WhatIsNotInItDoesNotComeOut) {
   robot::CalibrationFile got = SomeCalibration();
   robot::CalibrationFile bare;
@@ -141,7 +184,7 @@ TEST(ConvertCalibration, WhatIsNotInItDoesNotComeOut) {
   EXPECT_FALSE(got.pose || got.gravity || got.depth_bias || got.geometry_scale);
   EXPECT_TRUE(got.cable_routes.empty() && got.pressure_sensors.empty());
   EXPECT_TRUE(got.moduli.empty() && got.poissons_ratios.empty() && got.drives.empty());
-  EXPECT_TRUE(got.undetermined.empty());
+  EXPECT_TRUE(got.undetermined.empty() && got.cameras.empty());
 }
 
 TEST(ConvertCalibration, HasTheCovarianceInTheOrderOfRos) {

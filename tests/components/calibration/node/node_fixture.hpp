@@ -117,10 +117,11 @@ class CalibrationNodeTest : public testing::Test {
     return config;
   }
 
-  void StartNode(const NodeConfig& config, Worker::Fit fit) {
+  void StartNode(const NodeConfig& config, Worker::Fit fit,
+                 const std::vector<dds::FurtherCamera>& cameras = {}) {
     node_ = std::make_unique<CalibrationNode>(
         config, make_robot_(), static_cast<int>(dds::TestDomain()), dds::BuiltInTable(),
-        dds::NodeLog::ProcessLog(), std::move(fit));
+        dds::NodeLog::ProcessLog(), std::move(fit), cameras);
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] {
       return perception_.IsMatched(false) && markers_.matched() == 1 && requests_.matched() == 1 &&

@@ -9,6 +9,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/dds/camera_topics.hpp"
+#include "libs/dds/geometry_messages.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "tests/components/force_estimation/node/shape_node_fixture.hpp"
 
@@ -64,6 +65,7 @@ class FurtherCameraShapeTest : public ShapeNodeTest {
     dds::Message<idl::palpate_msgs::PerceptionReport> report;
     dds::SetHeader(report->header, stamp_ns, "camera_back_depth_optical_frame");
     dds::SetText(report->status, status);
+    report->camera_in_first = dds::ToPose(T_first_back_);
     dds::Resize(report->texture, 1);
     report->texture._buffer[0].id = 42;
     report->texture._buffer[0].direction[2] = 1.0f;
@@ -89,6 +91,7 @@ class FurtherCameraShapeTest : public ShapeNodeTest {
 
   dds::Writer<idl::sensor_msgs::PointCloud2> joined_;
   dds::Writer<idl::palpate_msgs::PerceptionReport> back_;
+  Eigen::Isometry3d T_first_back_ = FrontPose().inverse() * BackPose();  ///< as perception has it
 };
 
 TEST_F(FurtherCameraShapeTest, EachViewHasItsOwnPointsPoseAndTexture) {
@@ -111,6 +114,66 @@ TEST_F(FurtherCameraShapeTest, EachViewHasItsOwnPointsPoseAndTexture) {
   // Contacts are in the frame of the first.
   ASSERT_EQ(frame.contacts.size(), 1u);
   EXPECT_TRUE(frame.contacts[0].position_m.isApprox(Eigen::Vector3d(0.1, -0.2, 0.2), 1e-12));
+}
+
+/// A calibration reaches perception and this process at two times.
+TEST_F(FurtherCameraShapeTest, PointsAreSortedByThePosesThatJoinedThem) {
+  T_first_back_ = Eigen::Translation3d(0.0, 0.0, 0.25);
+  EXPECT_EQ(AskBoth(1'000, {0, 1}).status, "ok");
+  const ShapeFrame frame = script_.calls().at(0).shape.frame;
+  ASSERT_EQ(frame.views[1].cloud.Count(), 1);
+  EXPECT_NEAR(frame.views[1].cloud.points_m(2, 0), PointOf(1).z() - 0.25f, 1e-5f);
+  EXPECT_TRUE(frame.views[1].T_robot_camera.isApprox(BackPose(), 1e-12));
+}
+
+TEST_F(FurtherCameraShapeTest, ACalibrationMovesAllCamerasOrNone) {
+  auto calibrations = test_.participant.CreateWriter(dds::kCalibrationTopic, test_.Waker());
+  ASSERT_TRUE(test_.WaitFor([&] { return calibrations.matched() == 1; }));
+  const Eigen::Isometry3d front(Eigen::Translation3d(0.0, 0.0, 0.75));
+  const Eigen::Isometry3d back(Eigen::Translation3d(0.0, 0.0, 1.25));
+  const robot::CalibrationFile present = robot::DescribeForCalibration(*NodeTestRobot());
+  const auto send = [&](const std::string& date_utc, const std::vector<std::string>& names) {
+    dds::Message<idl::palpate_msgs::Calibration> message;
+    dds::SetText(message->robot, present.robot);
+    dds::SetText(message->mesh_hash, present.mesh_hash);
+    dds::SetText(message->element, present.element);
+    dds::SetText(message->material_model, present.model);
+    dds::SetText(message->volumetric, present.volumetric);
+    message->poissons_ratio = present.poissons_ratio;
+    dds::SetText(message->date_utc, date_utc);
+    message->has_camera = true;
+    message->camera_in_robot = dds::ToPose(front);
+    dds::Resize(message->cameras, names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      dds::SetText(message->cameras._buffer[k].name, names[k]);
+      message->cameras._buffer[k].camera_in_robot = dds::ToPose(back);
+    }
+    dds::Resize(message->moduli, 1);
+    dds::SetText(message->moduli._buffer[0].part, "body");
+    message->moduli._buffer[0].youngs_modulus_pa = names.empty() ? 321e3 : 654e3;
+    ASSERT_TRUE(calibrations.Write(message));
+    ASSERT_TRUE(calibrations.WaitUntilReceived(std::chrono::seconds(5)));
+  };
+  std::int64_t stamp_ns = 0;
+  /// Readers do not wait for each other: asks until the node has the calibration.
+  const auto ask_until = [&](double modulus_Pa) {
+    for (int k = 0; k < 100; ++k) {
+      AskBoth(stamp_ns += 1'000, {0, 1});
+      if (script_.calls().back().youngs_modulus_Pa == modulus_Pa) break;
+    }
+    EXPECT_EQ(script_.calls().back().youngs_modulus_Pa, modulus_Pa);
+    return script_.calls().back().shape.frame;
+  };
+  send("2026-01-31T12:00:00Z", {"top"});
+  const ShapeFrame before = ask_until(654e3);
+  EXPECT_TRUE(before.views[0].T_robot_camera.isApprox(FrontPose(), 1e-12));
+  EXPECT_TRUE(before.views[1].T_robot_camera.isApprox(BackPose(), 1e-12));
+  send("2026-01-31T12:30:00Z", {});
+  EXPECT_TRUE(ask_until(321e3).views[0].T_robot_camera.isApprox(FrontPose(), 1e-12));
+  send("2026-01-31T13:00:00Z", {"back"});
+  const ShapeFrame after = ask_until(654e3);
+  EXPECT_TRUE(after.views[0].T_robot_camera.isApprox(front, 1e-12));
+  EXPECT_TRUE(after.views[1].T_robot_camera.isApprox(back, 1e-12));
 }
 
 TEST_F(FurtherCameraShapeTest, ACameraThatIsMissingHasAnEmptyView) {

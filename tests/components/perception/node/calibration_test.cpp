@@ -46,6 +46,45 @@ TEST(CameraPose, OfAnotherMeshOrOlderOrNoneIsRefusedAndTheOneInUseStays) {
   EXPECT_EQ(pose.T_robot_camera()->translation().z(), 0.75);
 }
 
+void AddCamera(const std::string& name, double z_m, idl::palpate_msgs::Calibration* message) {
+  dds::Resize(message->cameras, 1);
+  dds::SetText(message->cameras._buffer[0].name, name);
+  message->cameras._buffer[0].camera_in_robot =
+      dds::ToPose(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z_m)));
+}
+
+TEST(CameraPose, OfSeveralCamerasAllMoveOrNone) {
+  const Eigen::Isometry3d start(Eigen::Translation3d(0.0, 0.0, 1.0));
+  CameraPose pose(start, {{"back", start}});
+  const auto alone = Calibration("hash", 0.25, "2026-01-31T12:00:00Z");
+  const Status refused = pose.Take(*alone);
+  EXPECT_EQ(refused.code(), StatusCode::kNoCalibration);
+  EXPECT_THAT(refused.message(), ::testing::HasSubstr("no pose of camera 'back'"));
+  EXPECT_TRUE(pose.Adopt("hash").ok());
+  EXPECT_EQ(pose.T_robot_camera()->translation().z(), 1.0);
+  auto both = Calibration("hash", 0.25, "2026-01-31T12:00:00Z");
+  AddCamera("back", 0.5, &*both);
+  both->cameras._buffer[0].camera_in_robot.orientation.w = 7.0;
+  EXPECT_EQ(pose.Take(*both).code(), StatusCode::kInvalidInput);
+  both->cameras._buffer[0].camera_in_robot.orientation.w = 1.0;
+  ASSERT_TRUE(pose.Take(*both).ok());
+  EXPECT_EQ(pose.further().at(0).T_robot_camera->translation().z(), 1.0) << "not adopted yet";
+  ASSERT_TRUE(pose.Adopt("hash").ok());
+  EXPECT_EQ(pose.T_robot_camera()->translation().z(), 0.25);
+  EXPECT_EQ(pose.further().at(0).T_robot_camera->translation().z(), 0.5);
+}
+
+TEST(CameraPose, OfACalibrationFileOfAnotherMeshIsSaidOnceAndOlderOnesAreStale) {
+  const Eigen::Isometry3d start(Eigen::Translation3d(0.0, 0.0, 1.0));
+  CameraPose pose(start, {}, {"other", "2026-01-31T12:00:00Z"});
+  EXPECT_TRUE(pose.Adopt("").ok());
+  EXPECT_THAT(pose.Adopt("hash").message(), ::testing::HasSubstr("is for mesh 'other'"));
+  EXPECT_TRUE(pose.Adopt("hash").ok());
+  EXPECT_EQ(pose.T_robot_camera()->translation().z(), 1.0);
+  EXPECT_EQ(pose.Take(*Calibration("hash", 0.5, "2026-01-31T11:59:59Z")).code(),
+            StatusCode::kStale);
+}
+
 TEST_F(PerceptionNodeTest, PredictsFromThePoseOfANewCalibration) {
   auto calibrations = test_.participant.CreateWriter(dds::kCalibrationTopic);
   StartNode(TestConfig(), false);

@@ -1,9 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+
 #include "components/perception/joint_perception.hpp"
+#include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
+#include "libs/dds/clock_offsets.hpp"
 #include "tests/components/perception/markers/marked_scene.hpp"
 #include "tests/components/perception/node/node_fixture.hpp"
 
@@ -25,8 +31,9 @@ scenario::Scenario SeenFrom(double azimuth_deg) {
 
 class FurtherCameraNodeTest : public PerceptionNodeTest {
  protected:
-  FurtherCameraNodeTest()
-      : back_(test_.participant, test_.Waker(), "back"),
+  /// `back_host`: participant of the second camera; nullptr: that of the first.
+  explicit FurtherCameraNodeTest(dds::Participant* back_host = nullptr)
+      : back_(back_host != nullptr ? *back_host : test_.participant, test_.Waker(), "back"),
         back_reports_(test_.participant.CreateReader(dds::kFurtherPerceptionReportTopic,
                                                      test_.Waker(), "back")),
         poses_{front_scene_.scenario().camera->T_robot_camera,
@@ -43,6 +50,7 @@ class FurtherCameraNodeTest : public PerceptionNodeTest {
         back_ns_ = dds::StampNs(message.header.stamp);
         back_status_ = dds::Text(message.status);
         back_points_ = message.robot_points;
+        EXPECT_TRUE(dds::FromPose(message.camera_in_first, &T_first_back_));
         EXPECT_EQ(dds::Text(message.header.frame_id), "camera_back_depth_optical_frame");
       }
     });
@@ -60,9 +68,9 @@ class FurtherCameraNodeTest : public PerceptionNodeTest {
   /// The robot is of one known colour: there is no prediction.
   static void SetColor(Config* config) { config->robot_color_rgb = {0.85, 0.30, 0.25}; }
 
-  void Start() {
+  void Start(double camera_wait_s = 0.2) {
     config_ = TestConfig();
-    config_.camera_wait_s = 0.2;
+    config_.camera_wait_s = camera_wait_s;
     SetColor(&config_);
     node_ = MakeNode(config_, poses_[0], poses_[1]);
     thread_ = std::thread([this] { node_->Run(); });
@@ -104,6 +112,7 @@ class FurtherCameraNodeTest : public PerceptionNodeTest {
   std::int64_t cloud_ns_ = 0, back_ns_ = 0;
   std::string back_status_;
   std::uint32_t back_points_ = 0;
+  Eigen::Isometry3d T_first_back_ = Eigen::Isometry3d::Identity();
 };
 
 TEST_F(FurtherCameraNodeTest, OneCloudHoldsWhatBothCamerasSeeAsOffline) {
@@ -173,6 +182,99 @@ TEST_F(FurtherCameraNodeTest, WithoutTheFirstTheFrameGoesOnToo) {
   EXPECT_THAT(answers_.back().notes, Contains("the first camera: no image of this time"));
   EXPECT_GT(cloud_.points.Count(), 100);
   EXPECT_THAT(cloud_.cameras, ::testing::Each(1u));
+}
+
+/// A calibration that has both cameras moves both; one that lacks the second moves none.
+TEST_F(FurtherCameraNodeTest, TakesThePosesOfACalibrationOfAllCameras) {
+  auto calibrations = test_.participant.CreateWriter(dds::kCalibrationTopic, test_.Waker());
+  Start();
+  ASSERT_TRUE(test_.WaitFor([&] { return calibrations.matched() == 1; }));
+  SendMesh();
+  const Eigen::Isometry3d nearer(Eigen::Translation3d(0.0, 0.0, -1e-3));
+  const auto send = [&](const std::string& date_utc, const std::vector<std::string>& names) {
+    dds::Message<idl::palpate_msgs::Calibration> message;
+    dds::SetText(message->mesh_hash, "hash");
+    dds::SetText(message->date_utc, date_utc);
+    message->has_camera = true;
+    message->camera_in_robot = dds::ToPose(poses_[0]);
+    dds::Resize(message->cameras, names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      dds::SetText(message->cameras._buffer[k].name, names[k]);
+      message->cameras._buffer[k].camera_in_robot = dds::ToPose(poses_[1] * nearer);
+    }
+    ASSERT_TRUE(calibrations.Write(message));
+    ASSERT_TRUE(calibrations.WaitUntilReceived(std::chrono::seconds(5)));
+  };
+  std::int64_t stamp_ns = 0;
+  const auto ask = [&] {
+    stamp_ns += kFrame_ns;
+    SendBack(stamp_ns);
+    SendFront(stamp_ns);
+    ASSERT_TRUE(WaitForAll(stamp_ns));
+  };
+  const Eigen::Isometry3d before = poses_[0].inverse() * poses_[1];
+  send("2026-01-31T12:00:00Z", {});
+  ask();
+  EXPECT_TRUE(T_first_back_.isApprox(before, 1e-12));
+  send("2026-01-31T13:00:00Z", {"back", "top"});
+  // Readers do not wait for each other: ask until the node has it.
+  for (int k = 0; k < 100 && T_first_back_.isApprox(before, 1e-12); ++k) ask();
+  EXPECT_TRUE(T_first_back_.isApprox(before * nearer, 1e-12));
+  EXPECT_EQ(back_status_, "ok");
+  EXPECT_THAT(answers_.back().notes,
+              Contains("/calibration: it has camera 'top', not in the setting 'cameras'"));
+}
+
+/// The host of the second camera.
+struct OtherHost {
+  OtherHost() {
+    setenv("PALPATE_HOST", "lab2", 1);
+    there.emplace("capture_back", PerceptionNodeTestTable());
+    unsetenv("PALPATE_HOST");
+  }
+  static dds::TopicTable PerceptionNodeTestTable() {
+    return dds::TableWith("/camera_<name>/depth/image_raw",
+                          [](dds::TopicSettings& topic) { topic.depth = 32; });
+  }
+  std::optional<dds::TestNode> there;
+};
+
+class CamerasOfTwoHosts : private OtherHost, public FurtherCameraNodeTest {
+ protected:
+  CamerasOfTwoHosts() : FurtherCameraNodeTest(&there->participant) {}
+  static constexpr std::int64_t kAhead_ns = 2'500'000'000;
+
+  dds::ClockOffsets clocks_{there->participant, dds::Host{"lab2", "lab2"},
+                            [] { return WallNow_ns() + kAhead_ns; }};
+};
+
+/// The second camera's host is 2.5 s ahead. Frames wait until that is measured, then those of one
+/// instant are joined.
+TEST_F(CamerasOfTwoHosts, FramesAreJoinedByTheClockOfTheFirst) {
+  constexpr std::int64_t kApart_ns = 100'000'000;
+  Start(1.0);
+  std::int64_t stamp_ns = 0;
+  const auto ask = [&] {
+    stamp_ns += kApart_ns;
+    // In this order the frame has this stamp, even where the second image comes too late.
+    SendFront(stamp_ns);
+    SendBack(stamp_ns + kAhead_ns);
+    return WaitForAll(stamp_ns);
+  };
+  ASSERT_TRUE(ask());
+  EXPECT_EQ(answers_.back().status, "stale");
+  EXPECT_EQ(answers_.back().reason, "the clock of host 'lab2' is being measured");
+  EXPECT_EQ(cloud_.points.Count(), 0);
+  test_.loop.Every(std::chrono::milliseconds(20), [this] { clocks_.Send({}); });
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (back_status_ != "ok" && std::chrono::steady_clock::now() < deadline) {
+    ASSERT_TRUE(ask()) << "the last answer is of " << answers_.back().stamp_ns << " in place of "
+                       << stamp_ns << ": " << answers_.back().reason;
+  }
+  EXPECT_EQ(back_status_, "ok") << testing::PrintToString(answers_.back().notes);
+  EXPECT_EQ(answers_.back().status, "ok");
+  EXPECT_THAT(cloud_.cameras, Contains(0u));
+  EXPECT_THAT(cloud_.cameras, Contains(1u));
 }
 
 /// A frame that none of the cameras can be used in is answered, too.
