@@ -138,34 +138,39 @@ double Radius95_m(const std::vector<Evaluation>& evaluations,
   return by_distance.back().first;
 }
 
-/// The mean place, and the mean square distances of place and force from it and from the force
-/// there, which are reported. Along that force the covariance has the spread of the magnitudes:
-/// places with another normal have forces of which only a part lies along it.
+/// Mean and centre of the places, and the mean square distances of place and force from the centre
+/// and from the force there, which are reported. Along that force the covariance has the spread of
+/// the magnitudes: places with another normal have forces of which only a part lies along it.
 void Summarise(const std::vector<Evaluation>& evaluations, const std::vector<double>& probability,
                const CandidateLocations& places, const Eigen::Matrix3Xd& normals,
                double same_location_m, ContactLocationPosterior* posterior) {
   const Eigen::Vector3d best_m = places.positions_m().col(posterior->place);
   double same = 0.0;
+  double same_N = 0.0;
   for (size_t k = 0; k < evaluations.size(); ++k) {
     const Eigen::Vector3d place_m = places.positions_m().col(evaluations[k].place);
     if ((place_m - best_m).norm() > same_location_m) continue;
+    const double weight_N = probability[k] * evaluations[k].fit.force_N;
     same += probability[k];
+    same_N += weight_N;
     posterior->mean_m += probability[k] * place_m;
+    posterior->centre_m += weight_N * place_m;
   }
   posterior->mean_m /= same;
-  const auto off_mean_m = [&](const Evaluation& one) -> Eigen::Vector3d {
-    return places.positions_m().col(one.place) - posterior->mean_m;
+  posterior->centre_m /= same_N;
+  const auto off_centre_m = [&](const Evaluation& one) -> Eigen::Vector3d {
+    return places.positions_m().col(one.place) - posterior->centre_m;
   };
   const auto force_N = [&](const Evaluation& one) -> Eigen::Vector3d {
     return one.fit.tangential_N - one.fit.force_N * normals.col(one.place);
   };
   const Eigen::Vector3d there_N = force_N(*std::min_element(
       evaluations.begin(), evaluations.end(), [&](const Evaluation& a, const Evaluation& b) {
-        return off_mean_m(a).squaredNorm() < off_mean_m(b).squaredNorm();
+        return off_centre_m(a).squaredNorm() < off_centre_m(b).squaredNorm();
       }));
   double size_variance_N2 = 0.0;
   for (size_t k = 0; k < evaluations.size(); ++k) {
-    const Eigen::Vector3d off_m = off_mean_m(evaluations[k]);
+    const Eigen::Vector3d off_m = off_centre_m(evaluations[k]);
     const Eigen::Vector3d off_N = force_N(evaluations[k]) - there_N;
     const double larger_N = force_N(evaluations[k]).norm() - there_N.norm();
     posterior->covariance_m2 += probability[k] * off_m * off_m.transpose();
@@ -208,7 +213,7 @@ ContactLocationPosterior Locate(const HiddenProblem& problem, const CandidateLoc
   const double between_m2 = places.spacing_m() * places.spacing_m() / 12.0;
   posterior.covariance_m2 += between_m2 * Eigen::Matrix3d::Identity();
   posterior.ci95_m =
-      std::max(Radius95_m(evaluations, probability, places.positions_m(), posterior.mean_m),
+      std::max(Radius95_m(evaluations, probability, places.positions_m(), posterior.centre_m),
                places.spacing_m());
   return posterior;
 }

@@ -17,9 +17,12 @@ struct ContactLocationPosterior {
   PlaceFit fit;    ///< there
   /// Over the places around the best one, as far as a contact there counts as the same.
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the mean, of all places
-  double ci95_m = 0.0;  ///< radius around the mean that holds 95 %
-  /// Mean square distance from the force at the mean place, as the place is uncertain and each has
+  /// The same weighted by the force at each place. The shape tells the moment: at the centre the
+  /// force is the mean one, at the mean it would be smaller.
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, of all places
+  double ci95_m = 0.0;  ///< radius around the centre that holds 95 %
+  /// Mean square distance from the force at the centre, as the place is uncertain and each has
   /// a force of its own. Along that force: of the magnitude.
   Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();
 };

@@ -84,6 +84,12 @@ Eigen::Matrix3d RandomLeft(const Eigen::Matrix3d& single_N2, const Eigen::Matrix
   return filtered_N2 / (1.0 + (kTemporalCorrelation - 1.0) * std::min(1.0, averaged));
 }
 
+/// What filtering takes from a force's covariance.
+Eigen::Matrix3d AveragedAway(const ShapeFitter& fit, std::size_t site) {
+  const Eigen::Matrix3d single_N2 = RandomCovariance(fit, site);
+  return single_N2 - RandomLeft(single_N2, fit.sites()[site].filter.covariance_N2());
+}
+
 }  // namespace
 
 double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2,
@@ -114,18 +120,23 @@ double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const
   const bool hidden = fit.sites()[site].hidden;
   const double seen = fit.IsBiasFittedAlong() ? tuning_.significance_along : config_.significance;
   const double chance = hidden ? config_.hidden_significance / search_places_ : seen;
-  return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), hidden, chance);
+  if (!hidden) {
+    return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), false, chance);
+  }
+  const ForceFilter& filter = fit.sites()[site].filter;
+  return Strength(filter.force_N(), CovarianceOf(fit, site) - AveragedAway(fit, site),
+                  fit.NormalAt(site), true, chance);
 }
 
 void ContactReport::Judge(double t_s, bool begins, ShapeFitter* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
+    fit->tracks().filter(s).Update(t_s, fit->ForceAt(s),
+                                   kTemporalCorrelation * RandomCovariance(*fit, s));
     const double strength = StrengthOf(*fit, s);
     const auto evidence = strength > tuning_.clear_strength ? ContactTracks::Evidence::kBeyondDoubt
                           : strength > 1.0                  ? ContactTracks::Evidence::kSignificant
                                                             : ContactTracks::Evidence::kNone;
     fit->tracks().Judge(s, evidence, strength < tuning_.quiet_strength, begins);
-    fit->tracks().filter(s).Update(t_s, fit->ForceAt(s),
-                                   kTemporalCorrelation * RandomCovariance(*fit, s));
   }
 }
 
@@ -140,7 +151,10 @@ std::vector<ContactForce> ContactReport::Contacts(const ShapeFitter& fit) const 
     const ShapeSite& site = fit.sites()[s];
     if (!site.acts || site.quiet_frames > 0) continue;
     ContactForce contact = ContactAt(fit, s, inflation);
-    if (site.hidden && IsZeroWithin(contact.force_N, contact.covariance_N2)) continue;
+    if (site.hidden && IsZeroWithin(contact.force_N, contact.covariance_N2)) {
+      if (StrengthOf(fit, s) < tuning_.clear_strength) continue;
+      contact.status = Status(StatusCode::kUncertain, {});
+    }
     contacts.push_back(std::move(contact));
   }
   return contacts;
@@ -167,11 +181,9 @@ ContactForce ContactReport::ContactAt(const ShapeFitter& fit, std::size_t site,
   contact.position_m = followed.patch.weights.Position(fit.state().x_m);
   contact.force_N = followed.filter.force_N();
   const Eigen::Matrix3d whole = WholeCovariance(fit, site);
-  const Eigen::Matrix3d single_N2 = RandomCovariance(fit, site);
-  const Eigen::Matrix3d averaged_away =
-      single_N2 - RandomLeft(single_N2, followed.filter.covariance_N2());
   const Eigen::Vector3d shared_N = force_relative_sigma_ * contact.force_N;
-  contact.covariance_N2 = inflation * (whole - averaged_away) + shared_N * shared_N.transpose();
+  contact.covariance_N2 =
+      inflation * (whole - AveragedAway(fit, site)) + shared_N * shared_N.transpose();
   contact.ci95_N = HalfWidth95_N(contact.force_N, contact.covariance_N2);
   const bool wide = contact.ci95_N > tuning_.uncertain_share * contact.force_N.norm();
   if (wide && !followed.hidden) contact.status = Status(StatusCode::kUncertain, {});

@@ -30,6 +30,7 @@ double TangentialSigma_m(const Eigen::Matrix3d& covariance_m2, const Eigen::Vect
 /// Location and uncertainty of the search.
 void TakePlace(const HiddenContact& found, ShapeSite* site) {
   site->seen_rest_m = site->centre.rest_m;
+  site->place_mean_m = site->centre.rest_m + found.mean_off_m;
   site->place_covariance_m2 = found.location_covariance_m2;
   site->place_ci95_m = found.location_ci95_m;
   site->place_force_covariance_N2 = found.force_covariance_N2;
@@ -85,6 +86,7 @@ bool ContactTracks::LoseSight(const std::vector<SeenContact>& contacts) {
     changed = site.hidden = true;
     site.name = site.acts && site.quiet_frames == 0 ? HiddenName() : std::string();
     const double known_m = std::max(tuning_.least_lost_sigma_m, site.seen_sigma_m);
+    site.place_mean_m = site.centre.rest_m;
     site.place_covariance_m2 = known_m * known_m * Eigen::Matrix3d::Identity();
     site.place_ci95_m = kSigmas95InPlane * known_m;
     site.seen_sigma_m = tuning_.hidden_sigma_m;

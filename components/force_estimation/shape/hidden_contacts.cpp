@@ -15,7 +15,7 @@ namespace {
 /// Of a track that goes on from an earlier shape.
 PlacePrior PriorOf(const ShapeSite& site, const HiddenContactsTuning& tuning) {
   const Eigen::Matrix3d slide_m2 = tuning.slide_m * tuning.slide_m * Eigen::Matrix3d::Identity();
-  return {.mean_m = site.centre.rest_m,
+  return {.mean_m = site.place_mean_m,
           .information_m2 = (tuning.prior_fading * site.place_covariance_m2 + slide_m2).inverse()};
 }
 
@@ -50,6 +50,7 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const CameraBiases& bias) {
   Status status = Status::Ok();
   if (!bias.known()) return status;
   if (HiddenSites().empty()) {
+    AverageLeftOver(frame.t_s);
     if (fit_.IsWorkUsedUp() || fit_.tracks().full() || !IsTimeToSearch()) return status;
     if (!IsMisfitLarge() && LeavesToNextFrame()) {
       frames_since_search_ = pause_;
@@ -184,6 +185,15 @@ void HiddenContacts::AddToAverage() {
   are_new_ = false;
 }
 
+/// The same without hidden contacts: what is too weak for one frame shows in many. Rounds of one
+/// frame have one noise, so that the last one counts alone.
+void HiddenContacts::AverageLeftOver(double t_s) {
+  if (t_s == averaged_t_s_ || !priors_.empty()) average_.Forget();
+  priors_.clear();
+  averaged_t_s_ = t_s;
+  average_.Add(fit_.targets(), fit_.fitter().fit().residual_m);
+}
+
 /// New responses would delay a frame: they are solved for once its forces are published, and used
 /// by the next one, which is not postponed again.
 bool HiddenContacts::LeavesToNextFrame() {
@@ -230,8 +240,8 @@ std::vector<int> HiddenContacts::RowsOfTargets() const {
 }
 
 Unexplained HiddenContacts::LeftOver() const {
-  return {.residual_m = fit_.fitter().fit().residual_m,
-          .weight = fit_.targets().targets().weight,
+  return {.residual_m = average_.motion_m(),
+          .weight = average_.weight(),
           .known = fit_.fitter().Response(),
           .left_m = fit_.fitter().fit().residual_m,
           .responses = &responses_,

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -87,6 +88,7 @@ class HiddenContacts {
   bool IsTimeToFollow() const;
   bool LeavesToNextFrame();
   void AddToAverage();
+  void AverageLeftOver(double t_s);
   Unexplained LeftOver() const;
   Unexplained OfHidden() const;
   Status Respond(const std::vector<robot::ActuatorCommand>& cables);
@@ -107,7 +109,8 @@ class HiddenContacts {
   int frames_since_search_ = 0;
   int pause_;  ///< between searches, frames
   ShapeAverage average_;
-  int averaged_about_ = -1;         ///< number of the linearisation
+  int averaged_about_ = -1;                                         ///< number of the linearisation
+  double averaged_t_s_ = -std::numeric_limits<double>::infinity();  ///< frame without hidden sites
   std::vector<PlacePrior> priors_;  ///< of the hidden sites, from before the average
   bool are_new_ = false;            ///< the hidden sites: without a prior
   bool left_over_ = false;          ///< the last frame postponed new responses

@@ -221,7 +221,8 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
     }
     const PlaceFit fit =
         FitPush(rest.EquationsAt(contact.place), normals.col(contact.place), tuning.friction);
-    found.push_back({.rest_position_m = contact.mean_m,
+    found.push_back({.rest_position_m = contact.centre_m,
+                     .mean_off_m = contact.mean_m - contact.centre_m,
                      .normal = normals.col(contact.place),
                      .force_N = contact.fit.force_N,
                      .tangential_N = contact.fit.tangential_N,

@@ -37,6 +37,8 @@ struct Unexplained {
 /// A contact that explains the residual.
 struct HiddenContact {
   Eigen::Vector3d rest_position_m = Eigen::Vector3d::Zero();  ///< undeformed body, robot frame
+  /// To the mean of the places where it may be, which differ in force: the prior of later searches.
+  Eigen::Vector3d mean_off_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward, unit, in the present shape
   double force_N = 0.0;  ///< along the inward normal, to first order, > 0
   Eigen::Vector3d tangential_N = Eigen::Vector3d::Zero();  ///< most probable friction, robot frame

@@ -309,8 +309,11 @@ Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
 }
 
 /// A hidden contact that is found in this frame, and of which it tells no force, would take its
-/// share from the visible ones.
+/// share from the visible ones. Beside none it stays: the next frames tell its location.
 Status ShapeForceEstimator::Impl::DropUncertainHidden(const ShapeFrame& frame) {
+  const auto& sites = fit_.sites();
+  const auto is_hidden = [](const ShapeSite& site) { return site.hidden; };
+  if (std::all_of(sites.begin(), sites.end(), is_hidden)) return Status::Ok();
   std::vector<std::size_t> uncertain;
   for (std::size_t s = fit_.sites().size(); s-- > 0;) {
     const ShapeSite& site = fit_.sites()[s];

@@ -30,8 +30,9 @@ struct ShapeSite {
   /// Of a contact that was moved to the body's other side: from its visible location to there, m.
   Eigen::Vector3d turned_m = Eigen::Vector3d::Zero();
 
-  /// Of hidden ones: covariance of the location, its 95 % radius, and the part of the force's
-  /// covariance that comes from it.
+  /// Of hidden ones: mean and covariance of the location, its 95 % radius, and the part of the
+  /// force's covariance that comes from it.
+  Eigen::Vector3d place_mean_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d place_covariance_m2 = Eigen::Matrix3d::Zero();
   double place_ci95_m = 0.0;
   Eigen::Matrix3d place_force_covariance_N2 = Eigen::Matrix3d::Zero();

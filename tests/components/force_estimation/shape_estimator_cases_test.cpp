@@ -107,6 +107,25 @@ TEST_F(ShapeEstimatorCases, ThreeContactsThatComeAtOnceAreAllReported) {
   }
 }
 
+/// Where on a leg it pushes, and so how hard, shows only in many frames. That something pushes
+/// shows at once: no frame is without an answer, and none says that there is no contact.
+TEST_F(ShapeEstimatorCases, AHiddenContactOfUnknownPlaceIsFollowed) {
+  ShapeForceEstimator estimator(*scene_.model, Config(), shape_);
+  Learn(&estimator);
+  PushAt({{-0.082, -0.002, 0.054}}, 0.5);
+  for (int k = 1; k <= 12; ++k) {
+    const ForceEstimate& estimate = estimator.Update(Frame(false));
+    ASSERT_TRUE(estimate.status.ok() || estimate.status.code() == StatusCode::kNoContact)
+        << k << ": " << estimate.status.message();
+    if (k > 4) {
+      EXPECT_EQ(estimate.contacts.size(), 1u) << k;
+    }
+    if (!estimate.contacts.empty()) {
+      EXPECT_NEAR(estimate.contacts[0].force_N.norm(), 0.5, estimate.contacts[0].ci95_N) << k;
+    }
+  }
+}
+
 /// From the first frame on, with a camera that is 1.5 mm and 3 mrad off its assumed pose and 0.3 %
 /// of z short: the forces are uncertain by that, and say so.
 TEST_F(ShapeEstimatorCases, WithoutBiasFramesForcesAreWithinTheirWiderIntervals) {
