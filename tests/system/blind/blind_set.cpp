@@ -59,17 +59,13 @@ CaseKind ParseKind(const std::string& text) {
       fmt::format("PALPATE_BLIND_KIND is '{}', none of: {}", text, fmt::join(kinds, ", ")));
 }
 
-/// Causes are drawn as large as they are seen on four_leg, and those of chambers on the pneumatic
-/// robots (cause_menu.hpp).
+/// On each robot causes are drawn as large as they are seen on four_leg, and those of chambers on
+/// the pneumatic robots (cause_menu.hpp).
 void TakeRobot(const std::string& robot, BlindSet* set) {
   const std::vector<std::string> robots = {"four_leg", "rod", "pneumatic_finger", "pneumatic_arm"};
   if (!IndexOf(robot, robots))
     throw InputError("PALPATE_BLIND_ROBOT: " + Unknown("robot", robot, robots));
-  if (robot == "rod" && set->kind.value_or(CaseKind::kHealthy) != CaseKind::kHealthy) {
-    throw InputError("PALPATE_BLIND_ROBOT 'rod' has cases of PALPATE_BLIND_KIND 'healthy' only");
-  }
   set->robot = robot;
-  if (robot == "rod") set->kind = CaseKind::kHealthy;
 }
 
 }  // namespace

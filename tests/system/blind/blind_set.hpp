@@ -17,7 +17,7 @@ namespace palpate::blind {
 /// Which cases. From the environment: PALPATE_BLIND_CASES (1 to 100000), PALPATE_BLIND_SEED (of the
 /// first case, 0 to 2000000000; the next case has the next seed), PALPATE_BLIND_KIND (healthy, one
 /// cause, two causes, outside, corrupted: the next seeds of this kind alone), PALPATE_BLIND_ROBOT
-/// (four_leg; rod, of which there are healthy cases only; pneumatic_finger and pneumatic_arm),
+/// (four_leg, rod, pneumatic_finger, pneumatic_arm),
 /// PALPATE_BLIND_FOLDER (everything is kept there; without it nothing is), PALPATE_BLIND_DATA
 /// (markers, or pictures), PALPATE_BLIND_SAMPLES (10 to 2000).
 struct BlindSet {

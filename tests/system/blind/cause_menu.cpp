@@ -167,6 +167,12 @@ std::vector<MenuItem> CableCauses() {
   };
 }
 
+/// Of a path of two points one is on the ground and one is a knot.
+bool HasEyelets(const RobotDescription& robot) {
+  return std::any_of(robot.cables.begin(), robot.cables.end(),
+                     [](const robot::CableSettings& cable) { return cable.path_m.cols() > 2; });
+}
+
 /// Of the largest pressure that a chamber may have.
 double LeastOfLimits_Pa(const RobotDescription& robot) {
   double least_Pa = robot.chambers.front().max_pressure_Pa;
@@ -212,8 +218,21 @@ const std::vector<MenuItem>& ChamberMenu() {
   return menu;
 }
 
+const std::vector<MenuItem>& EyeletMenu() {
+  static const std::vector<MenuItem> menu = [] {
+    std::vector<MenuItem> all = CauseMenu();
+    // Where the body goes depends on more than the ground points of its cables.
+    std::erase_if(all, [](const MenuItem& item) { return item.id == "hidden_obstacle"; });
+    all.push_back({"cable_friction", [](Random* r, const RobotDescription&) -> Parameters {
+                     return {{"mu", Logarithmic(r, 0.1, 0.4)}};
+                   }});
+    return all;
+  }();
+  return menu;
+}
+
 std::vector<MenuItem> MenuFor(const RobotDescription& robot) {
-  if (robot.chambers.empty()) return CauseMenu();
+  if (robot.chambers.empty()) return HasEyelets(robot) ? EyeletMenu() : CauseMenu();
   std::vector<MenuItem> menu = ChamberMenu();
   if (robot.chambers.size() < 2)
     std::erase_if(menu, [](const MenuItem& item) { return item.id == "swapped_tubes"; });

@@ -28,6 +28,8 @@ struct MenuItem {
 const std::vector<MenuItem>& CauseMenu();
 /// Those of chambers, by the same rule for pneumatic_finger and pneumatic_arm.
 const std::vector<MenuItem>& ChamberMenu();
+/// Those of robots whose cables run through eyelets: without the obstacle, with friction.
+const std::vector<MenuItem>& EyeletMenu();
 /// What can be hidden in a robot: of one with chambers those of its chambers.
 std::vector<MenuItem> MenuFor(const robot::RobotDescription& robot);
 
