@@ -66,6 +66,8 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kFurtherPerceptionReportTopic),
           NameAndType(kPackedDepthTopic),
           NameAndType(kPackedColorTopic),
+          NameAndType(kFurtherPackedDepthTopic),
+          NameAndType(kFurtherPackedColorTopic),
           NameAndType(kTfTopic)};
 }
 

@@ -35,12 +35,6 @@ dds::TopicSettings DriverQos(const dds::TopicTable& table, std::string_view name
   return qos;
 }
 
-template <typename T>
-dds::Reader<T> ReaderOf(dds::Participant& participant, const dds::Topic<T>& topic,
-                        const CameraConfig& config) {
-  return participant.CreateReaderAs(topic, DriverQos(participant.table(), topic.name, config));
-}
-
 std::optional<Eigen::Isometry3d> GivenPose(const CameraConfig& config) {
   if (config.T_depth_color.empty()) return std::nullopt;
   return geometry::ReadPose(app::ParseYaml(config.T_depth_color, "camera.T_depth_color"));
@@ -53,8 +47,9 @@ std::vector<std::string> WithTransports(std::vector<std::string> rules) {
   for (std::size_t i = 0; i < given; ++i) {
     const std::size_t sign = rules[i].find(":=");
     const std::string from = rules[i].substr(0, sign);
-    const bool depth = from == dds::kDepthImageTopic.name;
-    if (!depth && from != dds::kColorImageTopic.name) continue;
+    if (!from.starts_with("/camera")) continue;
+    const bool depth = from.ends_with("/depth/image_raw");
+    if (!depth && !from.ends_with("/color/image_raw")) continue;
     const std::string transport = depth ? "/compressedDepth" : "/compressed";
     const std::string packed = from + transport + ":=";
     const bool known = std::any_of(rules.begin(), rules.end(), [&](const std::string& rule) {
@@ -67,21 +62,23 @@ std::vector<std::string> WithTransports(std::vector<std::string> rules) {
 
 DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
                              const CameraConfig& config, double wait_s, double largest_z_m,
-                             StreamEvents events)
+                             StreamEvents events, const std::string& camera)
     : config_(config),
+      of_(dds::TopicsOf(camera)),
       wait_s_(wait_s),
       largest_z_m_(largest_z_m),
       events_(std::move(events)),
-      depth_infos_(ReaderOf(participant, dds::kDepthCameraInfoTopic, config)),
+      depth_infos_(ReaderOf(participant, of_.depth_lens)),
       transforms_(participant.CreateReader(dds::kTfStaticTopic)),
       moving_transforms_(participant.CreateReader(dds::kTfTopic)),
       camera_(GivenPose(config), config.baseline_m),
       pairing_(FromSeconds(wait_s), config.pairing_tolerance_s) {
   const bool packed = config.transport == "compressed";
   if (packed) {
-    packed_depths_.emplace(ReaderOf(participant, dds::kPackedDepthTopic, config));
+    packed_depths_.emplace(ReaderOf(
+        participant, camera.empty() ? dds::kPackedDepthTopic : dds::kFurtherPackedDepthTopic));
   } else {
-    depths_.emplace(ReaderOf(participant, dds::kDepthImageTopic, config));
+    depths_.emplace(ReaderOf(participant, of_.depth));
   }
   camera_.depth().image_topic = depths().ros_name();
   camera_.depth().info_topic = depth_infos_.ros_name();
@@ -91,15 +88,23 @@ DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(moving_transforms_, [this] { TakeInfos(); });
   if (!config.use_color) return;
   if (packed) {
-    packed_colors_.emplace(ReaderOf(participant, dds::kPackedColorTopic, config));
+    packed_colors_.emplace(ReaderOf(
+        participant, camera.empty() ? dds::kPackedColorTopic : dds::kFurtherPackedColorTopic));
   } else {
-    colors_.emplace(ReaderOf(participant, dds::kColorImageTopic, config));
+    colors_.emplace(ReaderOf(participant, of_.color));
   }
-  color_infos_.emplace(ReaderOf(participant, dds::kColorCameraInfoTopic, config));
+  color_infos_.emplace(ReaderOf(participant, of_.color_lens));
   camera_.color().image_topic = colors()->ros_name();
   camera_.color().info_topic = color_infos_->ros_name();
   loop.Attach(*colors(), [this] { TakeColor(); });
   loop.Attach(*color_infos_, [this] { TakeInfos(); });
+}
+
+template <typename T>
+dds::Reader<T> DriverStreams::ReaderOf(dds::Participant& participant,
+                                       const dds::Topic<T>& topic) const {
+  const dds::TopicSettings qos = DriverQos(participant.table(), topic.name, config_);
+  return participant.CreateReaderAs(topic, qos, {}, of_.name);
 }
 
 const dds::Endpoint& DriverStreams::depths() const {

@@ -11,6 +11,7 @@
 #include "components/perception/node/camera_streams.hpp"
 #include "components/perception/node/driver_camera.hpp"
 #include "components/perception/node/nearest_pairing.hpp"
+#include "libs/dds/camera_topics.hpp"
 #include "sensor_msgs/msg/CompressedImage.hpp"
 
 namespace palpate::perception {
@@ -23,10 +24,12 @@ std::vector<std::string> WithTransports(std::vector<std::string> rules);
 /// cameras stand.
 class DriverStreams : public CameraStreams {
  public:
-  /// `wait_s`: longest wait of a depth image for colour. `largest_z_m`: of depth in metres. Throws
-  /// InputError for a T_depth_color that is no pose.
+  /// `wait_s`: longest wait of a depth image for colour. `largest_z_m`: of depth in metres.
+  /// `camera`: name of a camera beside the first; empty: the first. Throws InputError for a
+  /// T_depth_color that is no pose, and for a name that is none.
   DriverStreams(dds::Participant& participant, dds::WaitSet& loop, const CameraConfig& config,
-                double wait_s, double largest_z_m, StreamEvents events);
+                double wait_s, double largest_z_m, StreamEvents events,
+                const std::string& camera = {});
 
   void ExpectInputs(dds::InputMonitor& inputs) override;
   std::optional<FrameSet> Take(Time now) override;
@@ -43,6 +46,8 @@ class DriverStreams : public CameraStreams {
   std::uint64_t dropped() const override { return pairing_.dropped(); }
 
  private:
+  template <typename T>
+  dds::Reader<T> ReaderOf(dds::Participant& participant, const dds::Topic<T>& topic) const;
   template <typename Message>
   void AddDepth(const Message& message);
   template <typename Message>
@@ -55,6 +60,7 @@ class DriverStreams : public CameraStreams {
   bool AwaitsInfo() const;
 
   CameraConfig config_;
+  dds::CameraTopics of_;
   double wait_s_;
   double largest_z_m_;
   StreamEvents events_;

@@ -39,13 +39,9 @@ const std::vector<dds::FurtherCamera>& WithPoses(const std::vector<dds::FurtherC
   return cameras;
 }
 
-void CheckSettings(const NodeConfig& config, bool has_pose, bool has_further_cameras) {
-  if (!has_further_cameras) return;
-  if (!has_pose) {
+void CheckSettings(bool has_pose, bool has_further_cameras) {
+  if (has_further_cameras && !has_pose) {
     throw InputError("cameras: camera_pose or --calibration is required beside further cameras");
-  }
-  if (config.camera.source != "capture") {
-    throw InputError("cameras: further cameras need camera.source capture");
   }
 }
 
@@ -77,7 +73,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
           {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
       lateness_{config.late_s},
       inputs_{participant_, loop_, log_} {
-  CheckSettings(config, pose_.T_robot_camera().has_value(), !cameras.empty());
+  CheckSettings(pose_.T_robot_camera().has_value(), !cameras.empty());
   AttachReaders();
   ExpectInputs();
   loop_.OnWake([this] { PublishResults(); });
@@ -90,21 +86,18 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
 std::vector<CameraFeed> PerceptionNode::MakeFeeds(const std::vector<dds::FurtherCamera>& cameras) {
   const StreamEvents events{[this] { Advance(); },
                             [this](std::int64_t stamp_ns) { outputs_.Repeat(stamp_ns); }};
-  std::vector<CameraFeed> feeds;
-  if (config_.camera.source == "driver") {
-    feeds.emplace_back(
-        config_, "",
-        std::make_unique<DriverStreams>(participant_, loop_, config_.camera, config_.pairing_wait_s,
-                                        config_.max_z_m, events));
-    return feeds;
-  }
+  const auto streams_of = [&](const std::string& name) -> std::unique_ptr<CameraStreams> {
+    if (config_.camera.source == "driver") {
+      return std::make_unique<DriverStreams>(participant_, loop_, config_.camera,
+                                             config_.pairing_wait_s, config_.max_z_m, events, name);
+    }
+    return std::make_unique<CaptureStreams>(participant_, loop_, config_.pairing_wait_s, events,
+                                            name);
+  };
   std::vector<std::string> names = dds::NamesOf(cameras);
   names.insert(names.begin(), "");
-  for (const std::string& name : names) {
-    feeds.emplace_back(config_, name,
-                       std::make_unique<CaptureStreams>(participant_, loop_, config_.pairing_wait_s,
-                                                        events, name));
-  }
+  std::vector<CameraFeed> feeds;
+  for (const std::string& name : names) feeds.emplace_back(config_, name, streams_of(name));
   return feeds;
 }
 
@@ -162,12 +155,11 @@ void PerceptionNode::SendPose() {
   if (!pose_.T_robot_camera()) return;
   const std::int64_t now_ns = participant_.Now_ns();
   const std::string frame = feeds_[0].streams().depth_frame();
-  for (std::size_t k = 1; k < feeds_.size(); ++k) {
-    (void)transforms_.Set(geometry::kRobotFrame, feeds_[k].streams().depth_frame(), *PoseOf(k),
-                          now_ns);
-  }
   if (config_.camera.source == "capture") {
-    (void)transforms_.Set(geometry::kRobotFrame, frame, *pose_.T_robot_camera(), now_ns);
+    for (std::size_t k = 0; k < feeds_.size(); ++k) {
+      (void)transforms_.Set(geometry::kRobotFrame, feeds_[k].streams().depth_frame(), *PoseOf(k),
+                            now_ns);
+    }
   } else if (!frame.empty()) {
     if (!pose_.is_of_frames()) {
       (void)transforms_.Set(frame, geometry::kRobotFrame, pose_.T_robot_camera()->inverse(),

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "libs/dds/camera_topics.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/dds/transforms.hpp"
 #include "tests/libs/dds/test_participant.hpp"
@@ -64,19 +65,29 @@ inline const std::vector<std::string> kRealSenseRules{
     "/camera/color/image_raw:=/camera/camera/color/image_raw",
     "/camera/color/camera_info:=/camera/camera/color/camera_info"};
 
+/// The same for a second camera of that name.
+inline const std::vector<std::string> kBackRules{
+    "/camera_back/depth/image_raw:=/back/back/depth/image_rect_raw",
+    "/camera_back/depth/camera_info:=/back/back/depth/camera_info",
+    "/camera_back/color/image_raw:=/back/back/color/image_raw",
+    "/camera_back/color/camera_info:=/back/back/color/camera_info"};
+
 /// Plays the driver of a camera: best effort, never latched, under names of its own.
 class FakeDriver {
  public:
   static constexpr auto kDepthFrame = "camera_depth_optical_frame";
   static constexpr auto kColorFrame = "camera_color_optical_frame";
 
-  explicit FakeDriver(dds::Reliability reliability = dds::Reliability::kBestEffort)
-      : participant_(Settings(), TableOf(reliability)),
+  /// `camera`: "back", or empty for the first.
+  explicit FakeDriver(dds::Reliability reliability = dds::Reliability::kBestEffort,
+                      const std::string& camera = {})
+      : of_(dds::TopicsOf(camera)),
+        participant_(Settings(camera), TableOf(reliability)),
         transforms_(participant_),
-        depths_(participant_.CreateWriter(dds::kDepthImageTopic)),
-        depth_infos_(participant_.CreateWriter(dds::kDepthCameraInfoTopic)),
-        colors_(participant_.CreateWriter(dds::kColorImageTopic)),
-        color_infos_(participant_.CreateWriter(dds::kColorCameraInfoTopic)) {}
+        depths_(participant_.CreateWriter(of_.depth, {}, camera)),
+        depth_infos_(participant_.CreateWriter(of_.depth_lens, {}, camera)),
+        colors_(participant_.CreateWriter(of_.color, {}, camera)),
+        color_infos_(participant_.CreateWriter(of_.color_lens, {}, camera)) {}
 
   bool IsRead() const {
     return depths_.matched() == 1 && depth_infos_.matched() == 1 && colors_.matched() == 1 &&
@@ -100,21 +111,22 @@ class FakeDriver {
   }
 
  private:
-  static dds::ParticipantSettings Settings() {
+  static dds::ParticipantSettings Settings(const std::string& camera) {
     dds::ParticipantSettings settings{.domain_id = dds::TestDomain(), .node_name = "camera"};
-    settings.remap = kRealSenseRules;
+    settings.remap = camera.empty() ? kRealSenseRules : kBackRules;
     return settings;
   }
   static dds::TopicTable TableOf(dds::Reliability reliability) {
     std::vector<dds::TopicSettings> topics = dds::BuiltInTable().topics();
     for (dds::TopicSettings& topic : topics) {
-      if (!topic.name.starts_with("/camera/")) continue;
+      if (!topic.name.starts_with("/camera")) continue;
       topic.reliability = reliability;
       topic.durability = dds::Durability::kVolatile;
     }
     return dds::TopicTable(std::move(topics));
   }
 
+  dds::CameraTopics of_;
   dds::Participant participant_;
   dds::TransformBroadcaster transforms_;
   dds::Writer<idl::sensor_msgs::Image> depths_;

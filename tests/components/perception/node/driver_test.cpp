@@ -122,7 +122,8 @@ class DriverNodeTest : public testing::Test {
     thread_.join();
   }
 
-  void StartNode(const NodeConfig& config, bool with_pose = true) {
+  void StartNode(const NodeConfig& config, bool with_pose = true,
+                 const std::vector<dds::FurtherCamera>& cameras = {}) {
     const auto log = [this](Severity, std::string_view line) {
       const std::lock_guard lock(mutex_);
       lines_.emplace_back(line);
@@ -131,7 +132,7 @@ class DriverNodeTest : public testing::Test {
     if (with_pose) T_robot_camera = Eigen::Translation3d(0.0, 0.0, 0.5);
     node_ = std::make_unique<PerceptionNode>(config, T_robot_camera, script_.Maker(),
                                              static_cast<int>(dds::TestDomain()),
-                                             dds::BuiltInTable(), log);
+                                             dds::BuiltInTable(), log, cameras);
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] { return reports_.matched() == 1; }));
   }
@@ -220,6 +221,24 @@ TEST_F(DriverNodeTest, PackedImagesMakeAFrameUnderTheNamesOfTheDriver) {
   EXPECT_EQ(answers_[100 * kMs].status, "ok") << answers_[100 * kMs].reason;
   EXPECT_EQ(script_.calls().at(0).depth_value, 400);
   EXPECT_EQ(script_.calls().at(0).color_value, 9);
+}
+
+TEST_F(DriverNodeTest, TwoDriversMakeOneFrame) {
+  NodeConfig config = DriverConfig();
+  config.camera_wait_s = 1.0;
+  config.dds.remap.insert(config.dds.remap.end(), kBackRules.begin(), kBackRules.end());
+  StartNode(config, true, {{"back", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.5))}});
+  driver_.emplace();
+  FakeDriver back(dds::Reliability::kBestEffort, "back");
+  ASSERT_TRUE(test_.WaitFor([&] { return driver_->IsRead() && back.IsRead(); }));
+  SendDepth(100 * kMs);
+  SendColor(100 * kMs);
+  back.SendDepth(DriverImage<std::uint16_t>("16UC1", {300}, 105 * kMs, "back_depth"));
+  back.SendColor(DriverImage<std::uint8_t>("bgr8", {0, 0, 7}, 105 * kMs, "back_depth"));
+  ASSERT_TRUE(IsAnswered(100 * kMs));
+  EXPECT_EQ(answers_[100 * kMs].status, "ok") << answers_[100 * kMs].reason;
+  EXPECT_EQ(script_.calls().at(0).depth_value, 400);
+  EXPECT_EQ(script_.calls().at(0).last_depth_value, 300);
 }
 
 TEST_F(DriverNodeTest, ACameraThatMovesOnTfIsRefused) {

@@ -17,8 +17,7 @@
 
 namespace palpate::perception {
 
-/// What the stand-in for JointPerception, of one camera, was asked, shared between it and the
-/// test.
+/// What the stand-in for JointPerception was asked, shared between it and the test.
 class Script {
  public:
   struct Call {
@@ -27,6 +26,7 @@ class Script {
     int cameras = 0;     ///< that this one had been given
     bool with_color = false;
     std::uint16_t depth_value = 0;                  ///< of the first pixel
+    std::uint16_t last_depth_value = 0;             ///< the same of the last camera
     std::uint8_t color_value = 0;                   ///< red of the first pixel
     std::optional<Eigen::Vector3d> first_vertex_m;  ///< of the predicted surface
   };
@@ -74,21 +74,26 @@ class Script {
       const rgbd::RgbdFrame& frame = *frames[0].images;
       EXPECT_EQ(frame.stamp_ns, stamp_ns);
       const PredictedSurface* predicted = frames[0].predicted;
-      Call call{frame.stamp_ns, number_, cameras_, !frame.color.empty(), 0, 0, {}};
+      Call call;
+      call.stamp_ns = frame.stamp_ns;
+      call.perception = number_;
+      call.cameras = cameras_;
+      call.with_color = !frame.color.empty();
       call.depth_value = frame.depth.values.at(0);
+      call.last_depth_value = frames.back().images->depth.values.at(0);
       if (call.with_color) call.color_value = frame.color.values.at(0);
       if (predicted) call.first_vertex_m = predicted->vertices_m.col(0);
       script_.calls_.push_back(call);
       script_.changed_.wait(lock, [this] { return !script_.hold_; });
-      Fill(frame);
+      observation_ = {};
+      observation_.stamp_ns = stamp_ns;
+      for (const CameraFrame& of_camera : frames) AddView(*of_camera.images);
       return observation_;
     }
 
    private:
     /// One point of the robot, as far away as the first pixel says, two of an object, one contact.
-    void Fill(const rgbd::RgbdFrame& frame) {
-      observation_ = {};
-      observation_.stamp_ns = frame.stamp_ns;
+    void AddView(const rgbd::RgbdFrame& frame) {
       SegmentedFrame& seen = observation_.views.emplace_back().frame;
       seen.status = Status::Ok();
       seen.robot.points_m = Eigen::Matrix3Xf::Zero(3, 1);
