@@ -232,6 +232,7 @@ std::vector<Block> SensingBlocks() {
   add_first("two_visible", {.where = Where::kVisible, .count = 2}, half);
   add_first("one_hidden", {.where = Where::kHidden}, half);
   add(OfBounds(sets, "one_visible", {.where = Where::kVisible}, size.contacts));
+  add(OfBounds(sets, "two_visible", {.where = Where::kVisible, .count = 2}, half));
   add(OfBounds(sets, "one_hidden", {.where = Where::kHidden}, half));
   add_contacts({.eyes = Eyes::kPerception, .cameras = 2});
   for (Benchmark& set : OfFinger(size)) add(std::move(set));

@@ -137,7 +137,8 @@ std::vector<test_support::ForceBound> SensingSets::Bounds(const ContactWish& wis
   std::vector<test_support::ForceBound> all;
   for (const Path& path : paths) {
     scene_.Show(path.back());
-    all.push_back(bounds.Of(path.back().forces.front(), take(), plan.settle + plan.measured));
+    for (const auto& bound : bounds.Of(path.back().forces, take(), plan.settle + plan.measured))
+      all.push_back(bound);
   }
   return all;
 }

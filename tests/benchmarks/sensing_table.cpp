@@ -151,7 +151,7 @@ contact         median ms    mean ms     p99 ms   worst ms   prepare ms   linear
 }
 
 void PrintBounds(std::ostream& out, const Results& results) {
-  for (const std::string set : {"one_visible", "one_hidden"}) {
+  for (const std::string set : {"one_visible", "two_visible", "one_hidden"}) {
     const Result* result = results.Find("sensing/bound/" + set);
     if (result == nullptr || !result->ok()) continue;
     out << "\nBound of |F| (Cramer-Rao, one sigma, % of |F|), " << set << ", "

@@ -8,10 +8,9 @@
 #include <cmath>
 
 #include "components/force_estimation/shape/location_step.hpp"
-#include "components/force_estimation/shape/observation_jacobian.hpp"
 #include "components/force_estimation/shape/temporal_correlation.hpp"
-#include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::test_support {
 
@@ -33,19 +32,23 @@ void Expect(const Status& status) {
   if (!status.ok()) throw RunError("no bound of a force: " + status.message());
 }
 
-/// Sigma of |F| over |F|: of the force along the inward normal and two tangents, and of the place.
+/// Of each force: along the inward normal and two tangents, and of the place.
+constexpr Eigen::Index kUnknowns = 5;
+
+/// Sigma of |F| over |F| of the k-th of the forces, which are along their normals and tangents.
 double Sigma(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& variance_m2,
-             const Eigen::Vector3d& force_N, double place_sigma_m) {
-  Eigen::Matrix<double, 5, 5> information =
+             const std::vector<Eigen::Vector3d>& forces_N, std::size_t k, double place_sigma_m) {
+  Eigen::MatrixXd information =
       jacobian.transpose() * variance_m2.cwiseInverse().asDiagonal() * jacobian;
-  information.diagonal().segment<2>(1).array() += std::pow(kFriction * force_N.x(), -2);
-  if (place_sigma_m > 0.0) {
-    information.diagonal().tail<2>().array() += std::pow(place_sigma_m, -2);
+  for (std::size_t f = 0; f < forces_N.size(); ++f) {
+    auto of_force = information.diagonal().segment<kUnknowns>(kUnknowns * ToIndex(f));
+    of_force.segment<2>(1).array() += std::pow(kFriction * forces_N[f].x(), -2);
+    if (place_sigma_m > 0.0) of_force.tail<2>().array() += std::pow(place_sigma_m, -2);
   }
-  Eigen::Vector<double, 5> along = Eigen::Vector<double, 5>::Zero();
-  along.head<3>() = force_N.normalized();
-  return std::sqrt(along.dot(Eigen::LDLT<Eigen::Matrix<double, 5, 5>>(information).solve(along))) /
-         force_N.norm();
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(information.rows());
+  along.segment<3>(kUnknowns * ToIndex(k)) = forces_N[k].normalized();
+  return std::sqrt(along.dot(Eigen::LDLT<Eigen::MatrixXd>(information).solve(along))) /
+         forces_N[k].norm();
 }
 
 }  // namespace
@@ -95,22 +98,40 @@ ForceBounds::Rows ForceBounds::RowsOf(const ShapeFrame& frame, const Eigen::Vect
   return all;
 }
 
+/// The model under the frame's inputs and these forces, about which it is linearised.
+fem::StaticState ForceBounds::Balance(const std::vector<virtual_robot::TrueForce>& truths,
+                                      const ShapeFrame& frame) {
+  fem::StaticState state = untouched_;
+  Eigen::VectorXd load_N = Eigen::VectorXd::Zero(state.x_m.size());
+  model_.AddWeight(load_N);
+  std::vector<robot::DeadLoad> loads;
+  for (const virtual_robot::TrueForce& truth : truths) {
+    const Eigen::Vector3d rest_m = map_.NearestAtRest(truth.rest_position_m).rest_m;
+    const fem::SurfacePatch patch = model_.Patch(rest_m, shape_.contact_radius_m);
+    loads.push_back({patch.weights, truth.force_N});
+    for (int axis = 0; axis < 3; ++axis) {
+      const robot::ForceDirection push{patch.weights, Eigen::Vector3d::Unit(axis)};
+      push.AddForce(truth.force_N[axis], load_N);
+    }
+  }
+  Expect(model_.Solve(frame.cables, loads, &state).status);
+  map_.Deform(state.x_m);
+  Expect(model_.linearisation().Update(state.x_m, state.multipliers_N, load_N));
+  return state;
+}
+
 /// [rows x 5] by the force along the inward normal and both tangents, and by the place along those.
 Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth,
-                                      const MaterialPoint& place, const ShapeFrame& frame,
-                                      const fem::StaticState& state,
-                                      const std::vector<robot::ObservationRow>& rows) {
-  force_estimation::ObservationJacobian responses;
-  Expect(responses.Add(model_, rows, state.x_m, frame.cables, state.multipliers_N));
+                                      const force_estimation::ObservationJacobian& responses) {
+  const MaterialPoint place = map_.NearestAtRest(truth.rest_position_m);
   const auto at = [&](const Eigen::Vector3d& rest_m) -> Eigen::MatrixX3d {
     const Eigen::Vector3d on_surface_m = map_.NearestAtRest(rest_m).rest_m;
     return responses.To(model_.Patch(on_surface_m, shape_.contact_radius_m).weights);
   };
   const Eigen::Vector3d normal = map_.NormalNow(place);
   const Eigen::MatrixX3d here = at(place.rest_m);
-  PALPATE_CHECK(here.rows() == std::ssize(rows), here.rows(), rows.size());
   const Eigen::Matrix<double, 3, 2> at_rest = Tangents(map_.NormalAtRest(place));
-  Eigen::MatrixXd jacobian(here.rows(), 5);
+  Eigen::MatrixXd jacobian(here.rows(), kUnknowns);
   jacobian.col(0) = -here * normal;
   jacobian.middleCols<2>(1) = here * Tangents(normal);
   for (int t = 0; t < 2; ++t) {
@@ -121,29 +142,28 @@ Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth,
   return jacobian;
 }
 
-ForceBound ForceBounds::Of(const virtual_robot::TrueForce& truth, const ShapeFrame& frame,
-                           int frames) {
-  const MaterialPoint place = map_.NearestAtRest(truth.rest_position_m);
-  const fem::SurfacePatch patch = model_.Patch(place.rest_m, shape_.contact_radius_m);
-  fem::StaticState state = untouched_;
-  Expect(model_.Solve(frame.cables, {{patch.weights, truth.force_N}}, &state).status);
-  map_.Deform(state.x_m);
-  Eigen::VectorXd load_N = Eigen::VectorXd::Zero(state.x_m.size());
-  model_.AddWeight(load_N);
-  for (int axis = 0; axis < 3; ++axis) {
-    const robot::ForceDirection push{patch.weights, Eigen::Vector3d::Unit(axis)};
-    push.AddForce(truth.force_N[axis], load_N);
-  }
-  Expect(model_.linearisation().Update(state.x_m, state.multipliers_N, load_N));
+std::vector<ForceBound> ForceBounds::Of(const std::vector<virtual_robot::TrueForce>& truths,
+                                        const ShapeFrame& frame, int frames) {
+  const fem::StaticState state = Balance(truths, frame);
   const Rows rows = RowsOf(frame, state.x_m, frames);
-  const Eigen::MatrixXd jacobian = Jacobian(truth, place, frame, state, rows.rows);
-  const Eigen::Vector3d normal = map_.NormalNow(place);
-  Eigen::Vector3d force_N;
-  force_N << -normal.dot(truth.force_N), Tangents(normal).transpose() * truth.force_N;
+  force_estimation::ObservationJacobian responses;
+  Expect(responses.Add(model_, rows.rows, state.x_m, frame.cables, state.multipliers_N));
+  Eigen::MatrixXd jacobian(std::ssize(rows.rows), kUnknowns * std::ssize(truths));
+  std::vector<Eigen::Vector3d> forces_N;
+  for (const virtual_robot::TrueForce& truth : truths) {
+    const Eigen::Vector3d normal = map_.NormalNow(map_.NearestAtRest(truth.rest_position_m));
+    jacobian.middleCols<kUnknowns>(kUnknowns * std::ssize(forces_N)) = Jacobian(truth, responses);
+    forces_N.emplace_back() << -normal.dot(truth.force_N),
+        Tangents(normal).transpose() * truth.force_N;
+  }
   const Eigen::VectorXd whole_m2 = rows.noise_m2 + rows.constant_m2;
-  return {.noise = Sigma(jacobian, rows.noise_m2, force_N, 0.0),
-          .whole = Sigma(jacobian, whole_m2, force_N, 0.0),
-          .at_place = Sigma(jacobian, whole_m2, force_N, kKnownPlace_m)};
+  std::vector<ForceBound> bounds;
+  for (std::size_t k = 0; k < forces_N.size(); ++k) {
+    bounds.push_back({.noise = Sigma(jacobian, rows.noise_m2, forces_N, k, 0.0),
+                      .whole = Sigma(jacobian, whole_m2, forces_N, k, 0.0),
+                      .at_place = Sigma(jacobian, whole_m2, forces_N, k, kKnownPlace_m)});
+  }
+  return bounds;
 }
 
 }  // namespace palpate::test_support

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/force_estimation/shape/camera_biases.hpp"
+#include "components/force_estimation/shape/observation_jacobian.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/surface_map.hpp"
@@ -19,15 +20,15 @@
 namespace palpate::test_support {
 
 /// Smallest standard deviation that an unbiased estimate of |F| can have, as a share of |F|
-/// (Cramer-Rao), of one contact whose place on the surface and force in space are unknown, friction
-/// known to a sigma of 0.3 of the push.
+/// (Cramer-Rao), of a contact whose place on the surface and force in space are unknown, as are
+/// those of the others, friction known to a sigma of 0.3 of the push.
 struct ForceBound {
   double noise = 0.0;     ///< by the depth noise alone
   double whole = 0.0;     ///< with what is left of the depth bias, and with the model's error
   double at_place = 0.0;  ///< the same where the place is known
 };
 
-/// What the robot file's features tell of a force at best, to first order about the true one.
+/// What the robot file's features tell of forces at best, to first order about the true ones.
 class ForceBounds {
  public:
   /// `model` must outlive this.
@@ -36,17 +37,17 @@ class ForceBounds {
   /// Contact-free frames with equal cable inputs, from which the depth bias is estimated.
   /// Throws RunError where the model has no equilibrium or nothing is seen.
   void Learn(const std::vector<force_estimation::ShapeFrame>& frames);
-  /// Of a force that is held in `frames` frames like `frame`. Throws RunError.
-  ForceBound Of(const virtual_robot::TrueForce& truth, const force_estimation::ShapeFrame& frame,
-                int frames);
+  /// Of each of the forces that are held at once in `frames` frames like `frame`. Throws RunError.
+  std::vector<ForceBound> Of(const std::vector<virtual_robot::TrueForce>& truths,
+                             const force_estimation::ShapeFrame& frame, int frames);
 
  private:
   struct Rows;
   Rows RowsOf(const force_estimation::ShapeFrame& frame, const Eigen::VectorXd& x_m, int frames);
+  fem::StaticState Balance(const std::vector<virtual_robot::TrueForce>& truths,
+                           const force_estimation::ShapeFrame& frame);
   Eigen::MatrixXd Jacobian(const virtual_robot::TrueForce& truth,
-                           const force_estimation::MaterialPoint& place,
-                           const force_estimation::ShapeFrame& frame, const fem::StaticState& state,
-                           const std::vector<robot::ObservationRow>& rows);
+                           const force_estimation::ObservationJacobian& responses);
 
   robot::RobotModel& model_;
   force_estimation::ShapeConfig shape_;
