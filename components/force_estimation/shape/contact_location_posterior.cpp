@@ -33,7 +33,8 @@ class Locator {
         normals_(normals),
         usable_(usable),
         settings_(settings),
-        tuning_(tuning) {}
+        tuning_(tuning),
+        usual_force_N_(tuning.usual_force_share * settings.scale.force_N) {}
 
   std::vector<Evaluation> EvaluatePlausible() const {
     const std::vector<int> plausible = PlausiblePlaces();
@@ -72,7 +73,7 @@ class Locator {
     for (size_t k = 0; k < places.size(); ++k) {
       Evaluation one{.place = places[k], .share = 1.0, .fit = {}, .unlikely = Unlikely(places[k])};
       one.fit = FitPush(equations[k], normals_.col(one.place), settings_.friction);
-      one.unlikely += std::pow(one.fit.force_N / tuning_.usual_force_N, 2);
+      one.unlikely += std::pow(one.fit.force_N / usual_force_N_, 2);
       evaluations.push_back(one);
     }
     return evaluations;
@@ -118,6 +119,7 @@ class Locator {
   const std::vector<bool>& usable_;
   const LocateSettings& settings_;
   const ContactLocationTuning& tuning_;
+  double usual_force_N_;
 };
 
 /// Radius around `centre_m` that holds 95 % of the shares.
@@ -209,7 +211,8 @@ ContactLocationPosterior Locate(const HiddenProblem& problem, const CandidateLoc
   for (double& share : probability) share /= sum;
 
   ContactLocationPosterior posterior{.place = best.place, .fit = best.fit};
-  Summarise(evaluations, probability, places, normals, tuning.same_location_m, &posterior);
+  Summarise(evaluations, probability, places, normals,
+            tuning.same_location_share * settings.scale.length_m, &posterior);
   const double between_m2 = places.spacing_m() * places.spacing_m() / 12.0;
   posterior.covariance_m2 += between_m2 * Eigen::Matrix3d::Identity();
   posterior.ci95_m =

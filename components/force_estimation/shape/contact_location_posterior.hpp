@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/force_estimation/shape/body_scale.hpp"
 #include "components/force_estimation/shape/candidate_locations.hpp"
 #include "components/force_estimation/shape/hidden_problem.hpp"
 
@@ -51,15 +52,17 @@ struct ContactLocationTuning {
   /// Model error and depth bias correlate over neighbouring rows: so many carry the information of
   /// one. Larger: wider posteriors.
   double correlated_rows = 6.0;
-  /// Prior sigma of the force. Smaller: places that need a large force lose probability.
-  double usual_force_N = 1.0;
-  /// Distance from the best place within which places are averaged. Larger: the mean of two
-  /// separate optima lies between them.
-  double same_location_m = 0.03;
+  /// Prior sigma of the force, of BodyScale::force_N. Smaller: places that need a large force lose
+  /// probability.
+  double usual_force_share = 0.032;
+  /// Distance from the best place, of BodyScale::length_m, within which places are averaged.
+  /// Larger: the mean of two separate optima lies between them.
+  double same_location_share = 0.097;
 };
 
 /// Input of Locate.
 struct LocateSettings {
+  BodyScale scale = {};
   double friction = 0.0;  ///< sigma of the tangential over the normal force
   int unknowns = 3;       ///< fitted parameters; m less these are the degrees of freedom
   PlacePrior prior = {};

@@ -40,10 +40,14 @@ void TakePlace(const HiddenContact& found, ShapeSite* site) {
 
 ContactTracks::ContactTracks(const robot::RobotModel& model, const ShapeConfig& config,
                              const ContactTracksTuning& tuning)
-    : model_(model), config_(config), tuning_(tuning), map_(model, tuning.map) {}
+    : model_(model),
+      config_(config),
+      tuning_(tuning),
+      length_m_(LengthOf_m(model.body())),
+      map_(model, tuning.map) {}
 
 bool ContactTracks::IsSame(const ShapeSite& site, const Eigen::Vector3d& rest_m) const {
-  return (site.centre.rest_m - rest_m).norm() < tuning_.same_contact_m;
+  return (site.centre.rest_m - rest_m).norm() < tuning_.same_contact_share * length_m_;
 }
 
 bool ContactTracks::See(const std::vector<SeenContact>& contacts, const Eigen::VectorXd& x_m) {
@@ -89,7 +93,7 @@ bool ContactTracks::LoseSight(const std::vector<SeenContact>& contacts) {
     site.place_mean_m = site.centre.rest_m;
     site.place_covariance_m2 = known_m * known_m * Eigen::Matrix3d::Identity();
     site.place_ci95_m = kSigmas95InPlane * known_m;
-    site.seen_sigma_m = tuning_.hidden_sigma_m;
+    site.seen_sigma_m = tuning_.hidden_sigma_share * length_m_;
   }
   std::erase_if(sites_, [](const ShapeSite& site) { return site.name.empty(); });
   return changed;
@@ -185,7 +189,7 @@ void ContactTracks::AddHidden(const HiddenContact& found) {
   site.filter = ForceFilter(config_.force_rate_N_s, tuning_.filter);
   site.radius_m = config_.contact_radius_m;
   Place(map_.NearestAtRest(found.rest_position_m), &site);
-  site.seen_sigma_m = tuning_.hidden_sigma_m;
+  site.seen_sigma_m = tuning_.hidden_sigma_share * length_m_;
   TakePlace(found, &site);
   sites_.push_back(std::move(site));
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "components/force_estimation/shape/body_scale.hpp"
 #include "components/force_estimation/shape/hidden_search.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
@@ -21,16 +22,17 @@ struct ContactTracksTuning {
   /// Lower bound of a visible contact's location sigma. Smaller: the location follows perception
   /// more closely than the deformation.
   double least_visible_sigma_m = 1e-3;
-  double hidden_sigma_m = 0.05;  ///< prior of hidden contacts: of the robot's size, no information
+  /// Prior of hidden contacts, of BodyScale::length_m: no information.
+  double hidden_sigma_share = 0.16;
   /// Of a contact that is no longer visible and may slide. Smaller: it is held where it was.
   double least_lost_sigma_m = 4e-3;
   /// Patch radius as a share of the visible extent, the rest of which is the object's rim. Larger:
   /// a wider pressure distribution.
   double patch_share_of_extent = 0.3;
   double largest_radius_m = 0.015;  ///< larger: contacts of wide objects have a wider patch
-  /// A contact that becomes visible this close to a hidden one is the same. Larger: a second
-  /// contact nearby inherits the force of the hidden one.
-  double same_contact_m = 0.035;
+  /// A contact that becomes visible this close to a hidden one, of BodyScale::length_m, is the
+  /// same. Larger: a second contact nearby inherits the force of the hidden one.
+  double same_contact_share = 0.113;
   /// Visible contacts closer than this, or than these sigmas, are one. Smaller: two forces that are
   /// not identifiable are fitted.
   double one_contact_m = 0.01;
@@ -112,6 +114,7 @@ class ContactTracks {
   const robot::RobotModel& model_;
   ShapeConfig config_;
   ContactTracksTuning tuning_;
+  double length_m_;  ///< of the robot
   SurfaceMap map_;
   std::vector<ShapeSite> sites_;
   int hidden_names_ = 0;

@@ -41,7 +41,8 @@ HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& conf
       tuning_(tuning),
       model_(model),
       fit_(fit),
-      search_(model, config, tuning.search),
+      search_(model, config, fit.scale(), tuning.search),
+      taken_radius_m_(tuning.taken_radius_share * fit.scale().length_m),
       pause_(tuning.frames_between_searches),
       average_(tuning.average) {}
 
@@ -78,7 +79,7 @@ Status HiddenContacts::Search(const ShapeFrame& frame, const CameraBiases& bias)
   int tried = 0;
   for (; tried < most && status.ok(); ++tried) {
     const std::vector<HiddenContact> found = search_.Find(
-        data, tuning_.most_at_once, config_.hidden_significance, taken_m, tuning_.taken_radius_m);
+        data, tuning_.most_at_once, config_.hidden_significance, taken_m, taken_radius_m_);
     if (found.empty()) break;
     if (Try(found, frame, bias, &status)) {
       pause_ = tuning_.frames_between_searches;
@@ -115,7 +116,7 @@ Status HiddenContacts::Follow(const ShapeFrame& frame, const CameraBiases& bias)
   if (!Respond(frame.cables).ok()) return Status::Ok();
   const Unexplained data = OfHidden();
   const std::vector<HiddenContact> found =
-      search_.Follow(data, priors_, SeenPlaces(), tuning_.taken_radius_m);
+      search_.Follow(data, priors_, SeenPlaces(), taken_radius_m_);
   if (found.empty()) return Status::Ok();
   const Status status = MoveTo(found, frame, bias);
   if (!status.ok() || !IsMisfitLarge() || fit_.IsWorkUsedUp() || !IsTimeToSearch()) return status;
@@ -125,9 +126,8 @@ Status HiddenContacts::Follow(const ShapeFrame& frame, const CameraBiases& bias)
 /// The remaining residual may come from another contact, or from wrong locations of all.
 Status HiddenContacts::FindOthers(const Unexplained& data, const ShapeFrame& frame,
                                   const CameraBiases& bias) {
-  const std::vector<HiddenContact> found =
-      search_.Find(data, tuning_.most_at_once, config_.hidden_significance, SeenPlaces(),
-                   tuning_.taken_radius_m);
+  const std::vector<HiddenContact> found = search_.Find(
+      data, tuning_.most_at_once, config_.hidden_significance, SeenPlaces(), taken_radius_m_);
   Status status = Status::Ok();
   if (found.empty() || AreWhereTheyWere(found)) return status;
   const bool better = Try(found, frame, bias, &status);

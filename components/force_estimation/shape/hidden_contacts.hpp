@@ -17,9 +17,9 @@ struct HiddenContactsTuning {
   HiddenSearchTuning search = {};
   ShapeAverageTuning average = {};
   int most_at_once = 2;  ///< contacts of one search, 1 or 2; 2: slower, finds pairs
-  /// Radius around a visible contact that is not searched: its own model error causes the residual
-  /// there. Smaller: false hidden contacts beside visible ones.
-  double taken_radius_m = 0.03;
+  /// Radius around a visible contact that is not searched, of BodyScale::length_m: its own model
+  /// error causes the residual there. Smaller: false hidden contacts beside visible ones.
+  double taken_radius_share = 0.097;
   /// Relocations in one frame, each about a new shape. More: slower, closer to the optimum.
   int follow_rounds = 2;
   /// First frames of a hidden contact, each with a relocation; then one in so many. More, or a
@@ -106,6 +106,7 @@ class HiddenContacts {
   robot::RobotModel& model_;
   ShapeFitter& fit_;
   HiddenSearch search_;
+  double taken_radius_m_;
   int frames_since_search_ = 0;
   int pause_;  ///< between searches, frames
   ShapeAverage average_;

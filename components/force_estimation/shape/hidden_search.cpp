@@ -78,8 +78,9 @@ std::pair<int, int> BestPair(const Tests& tests) {
 
 struct HiddenSearch::Parts {
   Parts(const robot::RobotModel& robot_model, const ShapeConfig& config,
-        const HiddenSearchTuning& search_tuning)
+        const BodyScale& scale_of_robot, const HiddenSearchTuning& search_tuning)
       : tuning(search_tuning),
+        scale(scale_of_robot),
         places(robot_model, std::max(config.contact_radius_m, tuning.least_patch_radius_m),
                tuning.places),
         false_alarm(tuning.false_alarm) {}
@@ -96,6 +97,7 @@ struct HiddenSearch::Parts {
   void Report(const Unexplained& data, const std::vector<ContactLocationPosterior>& contacts);
 
   HiddenSearchTuning tuning;
+  BodyScale scale;
   CandidateLocations places;
   FalseAlarm false_alarm;
   Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape of the last SetShape
@@ -201,7 +203,8 @@ std::vector<ContactLocationPosterior> HiddenSearch::Parts::FindPair(const Hidden
     for (size_t k = 0; k < 2; ++k) {
       pair[k] =
           Locate(Without(problem, pair[1 - k]), places, normals, usable,
-                 {.friction = tuning.friction, .unknowns = known + 2 * kUnknowns}, tuning.location);
+                 {.scale = scale, .friction = tuning.friction, .unknowns = known + 2 * kUnknowns},
+                 tuning.location);
       if (pair[k].place < 0) return {};
     }
   }
@@ -234,8 +237,8 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
 }
 
 HiddenSearch::HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config,
-                           const HiddenSearchTuning& tuning)
-    : parts_(std::make_unique<Parts>(model, config, tuning)) {}
+                           const BodyScale& scale, const HiddenSearchTuning& tuning)
+    : parts_(std::make_unique<Parts>(model, config, scale, tuning)) {}
 
 HiddenSearch::~HiddenSearch() = default;
 
@@ -277,7 +280,8 @@ const std::vector<HiddenContact>& HiddenSearch::Find(const Unexplained& data, in
       parts.ProblemOf(data, FirstOrderWeights(data, parts.tuning.first_order_error));
   const ContactLocationPosterior single = Locate(
       problem, parts.places, parts.normals, usable,
-      {.friction = parts.tuning.friction, .unknowns = known + kUnknowns}, parts.tuning.location);
+      {.scale = parts.scale, .friction = parts.tuning.friction, .unknowns = known + kUnknowns},
+      parts.tuning.location);
   if (single.place < 0) return parts.found;
   std::vector<ContactLocationPosterior> contacts = {single};
   if (most == 2 && parts.Stands(parts.Without(problem, single), usable, significance)) {
@@ -312,10 +316,12 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
       for (size_t other = 0; other < contacts.size(); ++other) {
         if (other != k) rest = parts.Without(rest, contacts[other]);
       }
-      contacts[k] =
-          Locate(rest, parts.places, parts.normals, usable,
-                 {.friction = parts.tuning.friction, .unknowns = unknowns, .prior = before[k]},
-                 parts.tuning.location);
+      contacts[k] = Locate(rest, parts.places, parts.normals, usable,
+                           {.scale = parts.scale,
+                            .friction = parts.tuning.friction,
+                            .unknowns = unknowns,
+                            .prior = before[k]},
+                           parts.tuning.location);
       if (contacts[k].place < 0) return parts.found;
     }
   }

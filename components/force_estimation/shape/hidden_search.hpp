@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "components/force_estimation/shape/body_scale.hpp"
 #include "components/force_estimation/shape/candidate_locations.hpp"
 #include "components/force_estimation/shape/contact_location_posterior.hpp"
 #include "components/force_estimation/shape/false_alarm.hpp"
@@ -85,9 +86,9 @@ struct HiddenSearchTuning {
 /// with known forces refitted. Both to first order about the state.
 class HiddenSearch {
  public:
-  /// `model` must outlive the search. Of `config` contact_radius_m is used. Throws
+  /// `model`, of this scale, must outlive the search. Of `config` contact_radius_m is used. Throws
   /// InputError where no part of the surface is free.
-  HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config,
+  HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config, const BodyScale& scale,
                const HiddenSearchTuning& tuning = {});
   ~HiddenSearch();
 

@@ -45,14 +45,15 @@ ShapeFitter::ShapeFitter(robot::RobotModel& model, const Config& config, const S
       matching_(features_, shape, tuning.matching),
       texture_(features_),
       targets_(shape, config.contact_marker_weight, tuning.targets),
+      scale_(ScaleOf(model)),
       tracks_(model, shape, tuning.tracks),
       fitter_(model, FitConfig(config, shape)),
       location_{model, fitter_, tuning.location} {
   fitter_.KeepFactor(true);
   fitter_.TellModulusSensitivity(false);
   fitter_.LimitContinuationSteps(0);
-  fitter_.TolerateCablesThatPush(tuning_.most_push_N);
-  fitter_.LimitForceStep(tuning_.longest_force_step_N);
+  fitter_.TolerateCablesThatPush(tuning_.most_push_share * scale_.force_N);
+  fitter_.LimitForceStep(tuning_.longest_force_step_share * scale_.force_N);
 }
 
 void ShapeFitter::BeginFrame(bool whole) {
@@ -117,6 +118,7 @@ void ShapeFitter::UseSites() {
 void ShapeFitter::SetForcePrior() {
   const auto size = ToIndex(3 * sites().size());
   fem::QpMatrix information = fem::QpMatrix::Zero(size, size);
+  const double normal_sigma_N = tuning_.normal_prior_sigma_share * scale_.force_N;
   for (std::size_t s = 0; s < sites().size(); ++s) {
     const auto row = ToIndex(3 * s);
     const Eigen::Vector3d normal = NormalAt(s);
@@ -124,7 +126,7 @@ void ShapeFitter::SetForcePrior() {
     const Eigen::Matrix3d along = normal * normal.transpose();
     information.block<3, 3>(row, row) =
         (Eigen::Matrix3d::Identity() - along) / (sigma_N * sigma_N) +
-        along / (tuning_.normal_prior_sigma_N * tuning_.normal_prior_sigma_N);
+        along / (normal_sigma_N * normal_sigma_N);
   }
   fitter_.SetForcePrior(information);
 }
@@ -132,10 +134,11 @@ void ShapeFitter::SetForcePrior() {
 double ShapeFitter::TangentialSigma_N(std::size_t site) const {
   const double pressed_N = std::abs(NormalAt(site).dot(ForceAt(site)));
   const bool hidden = sites()[site].hidden;
-  const double least_N = hidden ? tuning_.least_hidden_force_N : tuning_.least_prior_force_N;
+  const double least_share =
+      hidden ? tuning_.least_hidden_force_share : tuning_.least_prior_force_share;
   const double friction =
       hidden ? tuning_.hidden_friction : tuning_.friction_sigma * shape_.largest_friction;
-  return std::max(1e-3, friction * std::max(pressed_N, least_N));
+  return std::max(1e-3, friction * std::max(pressed_N, least_share * scale_.force_N));
 }
 
 Eigen::Vector3d ShapeFitter::NormalAt(std::size_t site) const {

@@ -55,10 +55,11 @@ struct ShapeFitterTuning {
   /// Further fits where one has used up its iterations and the frame's work is not limited. More: a
   /// longer first frame, fewer failures far from the shape.
   int more_fits = 3;
-  int most_continuation_steps = 3;    ///< the same; each takes seconds
-  double longest_force_step_N = 0.5;  ///< of a Newton step; longer: faster, less robust
-  double most_push_N = 0.15;          ///< compression that cables tolerate while a fit converges
-  double match_work = 1.0;            ///< of a matching, in substitutions; larger: fewer rounds
+  int most_continuation_steps = 3;  ///< the same; each takes seconds
+  // Forces, of BodyScale::force_N.
+  double longest_force_step_share = 0.016;  ///< of a Newton step; longer: faster, less robust
+  double most_push_share = 5e-3;  ///< compression that cables tolerate while a fit converges
+  double match_work = 1.0;        ///< of a matching, in substitutions; larger: fewer rounds
   /// Chord steps in a frame after which the factor is renewed. Fewer: more factorisations; more:
   /// slower convergence of the next frame.
   int aged_chord_steps = 4;
@@ -71,14 +72,15 @@ struct ShapeFitterTuning {
   /// Significance of a pull from which a contact is moved to the body's other side. Smaller: noise
   /// moves contacts.
   double adhesion_sigmas = 5.0;
-  /// Lower bound of the normal force in the friction prior. Larger: noisier tangential forces of
-  /// weak contacts.
-  double least_prior_force_N = 0.2;
+  /// Lower bound of the normal force in the friction prior, of BodyScale::force_N. Larger: noisier
+  /// tangential forces of weak contacts.
+  double least_prior_force_share = 6.4e-3;
   /// Friction coefficient in the prior of hidden contacts, as in the search. Larger: a tangential
   /// force replaces a move to another location.
   double hidden_friction = 0.3;
-  double least_hidden_force_N = 0.05;   ///< as least_prior_force_N
-  double normal_prior_sigma_N = 100.0;  ///< of the normal force: practically uninformative
+  double least_hidden_force_share = 1.6e-3;  ///< as least_prior_force_share
+  /// Of the normal force, likewise: practically uninformative.
+  double normal_prior_sigma_share = 3.2;
 };
 
 /// Fits the model to the robot's shape in a frame: matches surface points, fits forces, and moves
@@ -88,6 +90,8 @@ class ShapeFitter {
   /// All three must outlive this.
   ShapeFitter(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
               const ShapeFitterTuning& tuning = {});
+
+  const BodyScale& scale() const { return scale_; }
 
   /// The initial shape, without contact forces.
   void StartAt(const fem::StaticState& state);
@@ -208,6 +212,7 @@ class ShapeFitter {
   SurfaceMatching matching_;
   TextureMotion texture_;
   ShapeTargets targets_;
+  BodyScale scale_;
   ContactTracks tracks_;
   ForceNewton fitter_;
   LocationStep location_;

@@ -36,7 +36,8 @@ class HiddenScene {
       : model{robot::BuildRobotBody(robot)},
         commands(static_cast<size_t>(model.ActuatorCount())),
         free{model.RestState()},
-        search{std::make_unique<HiddenSearch>(model, ShapeConfig{.contact_radius_m = kRadius_m})},
+        search{std::make_unique<HiddenSearch>(model, ShapeConfig{.contact_radius_m = kRadius_m},
+                                              ScaleOf(model))},
         eye_m_{eye_m},
         looks_at_m_{looks_at_m} {
     const fem::StaticResult result = model.Solve(commands, {}, &free);

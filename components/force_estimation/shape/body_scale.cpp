@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/body_scale.hpp"
+
+#include <vector>
+
+#include "components/force_estimation/shape/observation_jacobian.hpp"
+#include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
+#include "libs/core/statistics.hpp"
+
+namespace palpate::force_estimation {
+
+double LengthOf_m(const robot::RobotBody& body) {
+  const Eigen::Matrix3Xd& nodes_m = body.mesh.nodes_m;
+  return (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).norm();
+}
+
+BodyScale ScaleOf(robot::RobotModel& model) {
+  const robot::RobotBody& body = model.body();
+  PALPATE_CHECK(!body.feature_points.empty());
+  std::vector<robot::ObservationRow> rows;
+  for (std::size_t f = 0; f < body.feature_points.size(); ++f) {
+    rows.push_back(
+        robot::RowOfPoint(body.feature_points[f].weights, body.feature_normals.col(ToIndex(f))));
+  }
+  const fem::StaticState rest = model.RestState();
+  const Eigen::VectorXd& x_m = rest.x_m;
+  const std::vector<robot::ActuatorCommand> loose(
+      At(model.ActuatorCount()), {.kind = robot::ActuatorCommand::Kind::kTension, .value = 0.0});
+  Status status = model.linearisation().Update(x_m, rest.multipliers_N,
+                                               Eigen::VectorXd::Zero(x_m.size()), true);
+  ObservationJacobian responses;
+  if (status.ok())
+    status = responses.Add(model, rows, x_m, loose, Eigen::VectorXd::Zero(model.ActuatorCount()));
+  PALPATE_CHECK(status.ok(), status.message());
+  std::vector<double> compliances_m_N;
+  for (std::size_t f = 0; f < rows.size(); ++f) {
+    const Eigen::MatrixX3d to_point = responses.To(body.feature_points[f].weights);
+    const double compliance_m_N = to_point.row(ToIndex(f)) * body.feature_normals.col(ToIndex(f));
+    if (compliance_m_N > 0.0) compliances_m_N.push_back(compliance_m_N);
+  }
+  PALPATE_CHECK(!compliances_m_N.empty());
+  const double length_m = LengthOf_m(body);
+  return {.length_m = length_m, .force_N = length_m / Median(compliances_m_N)};
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// How large and how stiff a robot is. What depends on that in the estimation is a share of these.
+struct BodyScale {
+  double length_m = 0.0;  ///< diagonal of the box about the undeformed body
+  /// Push on a feature point that moves it inwards by `length_m`, by the stiffness of the
+  /// undeformed body without actuators: the median over the feature points.
+  double force_N = 0.0;
+};
+
+/// The diagonal alone.
+double LengthOf_m(const robot::RobotBody& body);
+
+/// `model` has feature points. Uses its linearisation.
+BodyScale ScaleOf(robot::RobotModel& model);
+
+}  // namespace palpate::force_estimation
