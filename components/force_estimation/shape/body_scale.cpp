@@ -9,6 +9,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
+#include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
 
@@ -17,14 +18,15 @@ double LengthOf_m(const robot::RobotBody& body) {
   return (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).norm();
 }
 
-BodyScale ScaleOf(robot::RobotModel& model) {
-  const robot::RobotBody& body = model.body();
+BodyScale ScaleOf(const robot::RobotBody& body) {
   PALPATE_CHECK(!body.feature_points.empty());
   std::vector<robot::ObservationRow> rows;
   for (std::size_t f = 0; f < body.feature_points.size(); ++f) {
     rows.push_back(
         robot::RowOfPoint(body.feature_points[f].weights, body.feature_normals.col(ToIndex(f))));
   }
+  // A model of its own: a factor that another one keeps would change what is solved with it next.
+  robot::RobotModel model(body);
   const fem::StaticState rest = model.RestState();
   const Eigen::VectorXd& x_m = rest.x_m;
   const std::vector<robot::ActuatorCommand> loose(

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "libs/robot/robot_model.hpp"
+#include "libs/robot/robot_body.hpp"
 
 namespace palpate::force_estimation {
 
@@ -18,7 +18,7 @@ struct BodyScale {
 /// The diagonal alone.
 double LengthOf_m(const robot::RobotBody& body);
 
-/// `model` has feature points. Uses its linearisation.
-BodyScale ScaleOf(robot::RobotModel& model);
+/// `body` has feature points. Takes as long as a factorisation and as many solutions.
+BodyScale ScaleOf(const robot::RobotBody& body);
 
 }  // namespace palpate::force_estimation

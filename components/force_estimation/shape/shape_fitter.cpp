@@ -45,7 +45,7 @@ ShapeFitter::ShapeFitter(robot::RobotModel& model, const Config& config, const S
       matching_(features_, shape, tuning.matching),
       texture_(features_),
       targets_(shape, config.contact_marker_weight, tuning.targets),
-      scale_(ScaleOf(model)),
+      scale_(ScaleOf(model.body())),
       tracks_(model, shape, tuning.tracks),
       fitter_(model, FitConfig(config, shape)),
       location_{model, fitter_, tuning.location} {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <utility>
 
 #include "libs/robot/calibrated_geometry.hpp"
 #include "tests/support/robots.hpp"
@@ -22,8 +21,7 @@ BodyScale ScaleOfRod(double youngs_modulus_Pa, double size) {
   rod.material.youngs_modulus_Pa = youngs_modulus_Pa;
   robot::RobotBody body = robot::BuildRobotBody(rod);
   if (size != 1.0) robot::ScaleBody(size, &body);
-  robot::RobotModel model(std::move(body));
-  return ScaleOf(model);
+  return ScaleOf(body);
 }
 
 TEST(BodyScale, GrowsWithTheModulusAndTheSquareOfTheSize) {

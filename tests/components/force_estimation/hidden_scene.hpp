@@ -37,7 +37,7 @@ class HiddenScene {
         commands(static_cast<size_t>(model.ActuatorCount())),
         free{model.RestState()},
         search{std::make_unique<HiddenSearch>(model, ShapeConfig{.contact_radius_m = kRadius_m},
-                                              ScaleOf(model))},
+                                              ScaleOf(model.body()))},
         eye_m_{eye_m},
         looks_at_m_{looks_at_m} {
     const fem::StaticResult result = model.Solve(commands, {}, &free);

@@ -3,7 +3,6 @@
 
 #include "tests/support/sensing/force_bound.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +10,7 @@
 #include "components/force_estimation/shape/temporal_correlation.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::test_support {
 
@@ -47,8 +47,7 @@ double Sigma(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& variance_m2
   }
   Eigen::VectorXd along = Eigen::VectorXd::Zero(information.rows());
   along.segment<3>(kUnknowns * ToIndex(k)) = forces_N[k].normalized();
-  return std::sqrt(along.dot(Eigen::LDLT<Eigen::MatrixXd>(information).solve(along))) /
-         forces_N[k].norm();
+  return std::sqrt(along.dot(linalg::SolveSymmetric(information, along))) / forces_N[k].norm();
 }
 
 }  // namespace
