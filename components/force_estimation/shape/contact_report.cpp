@@ -136,7 +136,10 @@ void ContactReport::Judge(double t_s, bool begins, ShapeFitter* fit) const {
     const auto evidence = strength > tuning_.clear_strength ? ContactTracks::Evidence::kBeyondDoubt
                           : strength > 1.0                  ? ContactTracks::Evidence::kSignificant
                                                             : ContactTracks::Evidence::kNone;
-    fit->tracks().Judge(s, evidence, strength < tuning_.quiet_strength, begins);
+    const ShapeSite& site = fit->sites()[s];
+    const double largest_place_m = tuning_.largest_place_share * fit->scale().length_m;
+    const bool at_once = begins && !(site.hidden && site.place_ci95_m > largest_place_m);
+    fit->tracks().Judge(s, evidence, strength < tuning_.quiet_strength, at_once);
   }
 }
 
@@ -152,7 +155,8 @@ std::vector<ContactForce> ContactReport::Contacts(const ShapeFitter& fit) const 
     if (!site.acts || site.quiet_frames > 0) continue;
     ContactForce contact = ContactAt(fit, s, inflation);
     if (site.hidden && IsZeroWithin(contact.force_N, contact.covariance_N2)) {
-      if (StrengthOf(fit, s) < tuning_.clear_strength) continue;
+      const bool is_only_one = fit.sites().size() == 1;
+      if (!is_only_one || StrengthOf(fit, s) < tuning_.clear_strength) continue;
       contact.status = Status(StatusCode::kUncertain, {});
     }
     contacts.push_back(std::move(contact));

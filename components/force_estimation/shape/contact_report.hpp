@@ -32,6 +32,9 @@ struct ContactReportTuning {
   /// along. Its interval is then mostly the bias', constant over the frames, so that there is no
   /// chance in each of them. Larger: forces that are no larger than their interval are reported.
   double significance_along = 0.01;
+  /// Radius that holds a hidden contact's place with 95 %, of BodyScale::length_m, up to which it
+  /// is reported in the first frame of a sequence. Larger: contacts that may be anywhere are, too.
+  double largest_place_share = 0.25;
   double uncertain_share = Config().uncertain_share;  ///< Config::uncertain_share
 };
 
@@ -50,7 +53,8 @@ class ContactReport {
   /// contact's location.
   bool HoldsZero(const ShapeFitter& fit, std::size_t site) const;
   /// The contacts that act and are not quiet in this frame. Of hidden ones those whose
-  /// ellipsoid does not hold zero: no image shows that something is there.
+  /// ellipsoid does not hold zero: no image shows that something is there. Where nothing else can
+  /// explain the shape, one beyond doubt is reported all the same, as kUncertain.
   std::vector<ContactForce> Contacts(const ShapeFitter& fit) const;
 
  private:
