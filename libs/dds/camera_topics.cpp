@@ -29,6 +29,8 @@ CameraTopics TopicsOf(const std::string& camera) {
   topics.depth_lens = kFurtherDepthCameraInfoTopic;
   topics.color = kFurtherColorImageTopic;
   topics.color_lens = kFurtherColorCameraInfoTopic;
+  topics.packed_depth = kFurtherPackedDepthTopic;
+  topics.packed_color = kFurtherPackedColorTopic;
   topics.frame_info = kFurtherFrameInfoTopic;
   topics.setup = kFurtherCameraSetupTopic;
   topics.report = kFurtherPerceptionReportTopic;

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "libs/dds/driver_topics.hpp"
 #include "libs/dds/topics.hpp"
 
 namespace palpate::dds {
@@ -19,6 +20,10 @@ inline constexpr Topic<idl::sensor_msgs::Image> kFurtherColorImageTopic{
     "/camera_<name>/color/image_raw"};
 inline constexpr Topic<idl::sensor_msgs::CameraInfo> kFurtherColorCameraInfoTopic{
     "/camera_<name>/color/camera_info"};
+inline constexpr Topic<idl::sensor_msgs::CompressedImage> kFurtherPackedDepthTopic{
+    "/camera_<name>/depth/image_raw/compressedDepth"};
+inline constexpr Topic<idl::sensor_msgs::CompressedImage> kFurtherPackedColorTopic{
+    "/camera_<name>/color/image_raw/compressed"};
 inline constexpr Topic<idl::palpate_msgs::FrameInfo> kFurtherFrameInfoTopic{
     "/camera_<name>/frame_info"};
 inline constexpr Topic<idl::palpate_msgs::CameraSetup> kFurtherCameraSetupTopic{
@@ -35,6 +40,8 @@ struct CameraTopics {
   Topic<idl::sensor_msgs::CameraInfo> depth_lens = kDepthCameraInfoTopic;
   Topic<idl::sensor_msgs::Image> color = kColorImageTopic;
   Topic<idl::sensor_msgs::CameraInfo> color_lens = kColorCameraInfoTopic;
+  Topic<idl::sensor_msgs::CompressedImage> packed_depth = kPackedDepthTopic;  ///< of drivers
+  Topic<idl::sensor_msgs::CompressedImage> packed_color = kPackedColorTopic;  ///< of drivers
   Topic<idl::palpate_msgs::FrameInfo> frame_info = kFrameInfoTopic;
   Topic<idl::palpate_msgs::CameraSetup> setup = kCameraSetupTopic;
   Topic<idl::palpate_msgs::PerceptionReport> report = kPerceptionReportTopic;

@@ -15,11 +15,6 @@ inline constexpr Topic<idl::sensor_msgs::CompressedImage> kPackedDepthTopic{
     "/camera/depth/image_raw/compressedDepth"};
 inline constexpr Topic<idl::sensor_msgs::CompressedImage> kPackedColorTopic{
     "/camera/color/image_raw/compressed"};
-/// The same of cameras beside the first one. <name>: the camera's.
-inline constexpr Topic<idl::sensor_msgs::CompressedImage> kFurtherPackedDepthTopic{
-    "/camera_<name>/depth/image_raw/compressedDepth"};
-inline constexpr Topic<idl::sensor_msgs::CompressedImage> kFurtherPackedColorTopic{
-    "/camera_<name>/color/image_raw/compressed"};
 /// Frames that may move. Other programs publish them.
 inline constexpr Topic<idl::tf2_msgs::TFMessage> kTfTopic{"/tf"};
 

@@ -75,8 +75,8 @@ std::vector<std::string> NamesOf(const std::vector<FurtherCamera>& cameras) {
   return names;
 }
 
-void TakePoses(const std::vector<FurtherCamera>& calibrated, const std::string& file,
-               std::vector<FurtherCamera>* cameras) {
+std::string TakePoses(const std::vector<FurtherCamera>& calibrated, const std::string& file,
+                      std::vector<FurtherCamera>* cameras) {
   for (FurtherCamera& camera : *cameras) {
     if (camera.T_robot_camera) continue;
     const auto known =
@@ -89,6 +89,10 @@ void TakePoses(const std::vector<FurtherCamera>& calibrated, const std::string& 
     }
     camera.T_robot_camera = known->T_robot_camera;
   }
+  CameraMatch match = MatchCameras(NamesOf(*cameras), NamesOf(calibrated));
+  match.missing.clear();
+  const std::string unknown = Describe(match);
+  return unknown.empty() ? unknown : file + ": " + unknown;
 }
 
 CameraMatch MatchCameras(const std::vector<std::string>& running,

@@ -30,9 +30,10 @@ std::vector<FurtherCamera> ReadFurtherCameras(
 std::vector<std::string> NamesOf(const std::vector<FurtherCamera>& cameras);
 
 /// Gives each camera without a pose that of its name in `calibrated`, the cameras of a calibration
-/// file. Throws InputError where that has none.
-void TakePoses(const std::vector<FurtherCamera>& calibrated, const std::string& file,
-               std::vector<FurtherCamera>* cameras);
+/// file. Returns what a person should know: which of these do not run; empty: all do. Throws
+/// InputError where a camera has no pose.
+std::string TakePoses(const std::vector<FurtherCamera>& calibrated, const std::string& file,
+                      std::vector<FurtherCamera>* cameras);
 
 /// Names of further cameras that run, against those that a calibration holds.
 struct CameraMatch {

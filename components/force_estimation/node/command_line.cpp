@@ -42,16 +42,13 @@ std::vector<dds::FurtherCamera> FurtherCamerasOf(const NodeConfig& config, const
   for (const robot::CalibratedCamera& camera : calibration->cameras) {
     calibrated.push_back({camera.name, camera.pose.T_robot_camera});
   }
-  dds::CameraMatch match = dds::MatchCameras(dds::NamesOf(cameras), dds::NamesOf(calibrated));
-  match.missing.clear();
-  if (!match.unknown.empty() && IsFromShape(config))
-    app::LogWarning("{}: {}", file, Describe(match));
   std::erase_if(calibration->cameras, [&](const robot::CalibratedCamera& known) {
     return std::any_of(cameras.begin(), cameras.end(), [&](const dds::FurtherCamera& camera) {
       return camera.name == known.name && camera.T_robot_camera;
     });
   });
-  dds::TakePoses(calibrated, file, &cameras);
+  const std::string unknown = dds::TakePoses(calibrated, file, &cameras);
+  if (!unknown.empty() && IsFromShape(config)) app::LogWarning("{}", unknown);
   return cameras;
 }
 

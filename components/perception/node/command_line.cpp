@@ -31,10 +31,8 @@ PoseOrigin TakeCalibrationFile(const std::filesystem::path& file,
   for (const robot::CalibratedCamera& camera : calibration.cameras) {
     calibrated.push_back({camera.name, camera.pose.T_robot_camera});
   }
-  dds::CameraMatch match = dds::MatchCameras(dds::NamesOf(*cameras), dds::NamesOf(calibrated));
-  match.missing.clear();
-  if (!match.unknown.empty()) app::LogWarning("{}: {}", file.string(), Describe(match));
-  dds::TakePoses(calibrated, file.string(), cameras);
+  const std::string unknown = dds::TakePoses(calibrated, file.string(), cameras);
+  if (!unknown.empty()) app::LogWarning("{}", unknown);
   return {calibration.mesh_hash, calibration.date_utc};
 }
 

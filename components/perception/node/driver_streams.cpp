@@ -75,8 +75,7 @@ DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
       pairing_(FromSeconds(wait_s), config.pairing_tolerance_s) {
   const bool packed = config.transport == "compressed";
   if (packed) {
-    packed_depths_.emplace(ReaderOf(
-        participant, camera.empty() ? dds::kPackedDepthTopic : dds::kFurtherPackedDepthTopic));
+    packed_depths_.emplace(ReaderOf(participant, of_.packed_depth));
   } else {
     depths_.emplace(ReaderOf(participant, of_.depth));
   }
@@ -88,8 +87,7 @@ DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(moving_transforms_, [this] { TakeInfos(); });
   if (!config.use_color) return;
   if (packed) {
-    packed_colors_.emplace(ReaderOf(
-        participant, camera.empty() ? dds::kPackedColorTopic : dds::kFurtherPackedColorTopic));
+    packed_colors_.emplace(ReaderOf(participant, of_.packed_color));
   } else {
     colors_.emplace(ReaderOf(participant, of_.color));
   }

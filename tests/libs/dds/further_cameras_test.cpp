@@ -50,9 +50,12 @@ TEST(FurtherCameras, TakePosesOfACalibrationWhereTheSettingsGiveNone) {
   const auto at = [](double x_m) { return Eigen::Isometry3d(Eigen::Translation3d(x_m, 0.0, 0.0)); };
   const std::vector<FurtherCamera> calibrated{{"back", at(1.0)}, {"top", at(2.0)}};
   std::vector<FurtherCamera> cameras{{"back", std::nullopt}, {"top", at(3.0)}};
-  TakePoses(calibrated, "c.yaml", &cameras);
+  EXPECT_EQ(TakePoses(calibrated, "c.yaml", &cameras), "");
   EXPECT_EQ(cameras[0].T_robot_camera->translation().x(), 1.0);
   EXPECT_EQ(cameras[1].T_robot_camera->translation().x(), 3.0) << "that of the settings";
+  cameras = {{"back", std::nullopt}};
+  EXPECT_EQ(TakePoses(calibrated, "c.yaml", &cameras),
+            "c.yaml: it has camera 'top', not in the setting 'cameras'");
   cameras = {{"bak", std::nullopt}};
   try {
     TakePoses(calibrated, "c.yaml", &cameras);

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "components/perception/node/driver_streams.hpp"
 #include "components/perception/node/node.hpp"
 #include "libs/core/file.hpp"
 #include "libs/dds/driver_topics.hpp"
@@ -221,6 +222,16 @@ TEST_F(DriverNodeTest, PackedImagesMakeAFrameUnderTheNamesOfTheDriver) {
   EXPECT_EQ(answers_[100 * kMs].status, "ok") << answers_[100 * kMs].reason;
   EXPECT_EQ(script_.calls().at(0).depth_value, 400);
   EXPECT_EQ(script_.calls().at(0).color_value, 9);
+}
+
+TEST(WithTransports, PackedImagesOfEveryCameraFollowTheRulesOfTheirImages) {
+  EXPECT_THAT(
+      WithTransports({"/camera/depth/image_raw:=/front", "/camera_back/color/image_raw:=/b",
+                      "/camera_back/depth/camera_info:=/i"}),
+      testing::ElementsAre("/camera/depth/image_raw:=/front", "/camera_back/color/image_raw:=/b",
+                           "/camera_back/depth/camera_info:=/i",
+                           "/camera/depth/image_raw/compressedDepth:=/front/compressedDepth",
+                           "/camera_back/color/image_raw/compressed:=/b/compressed"));
 }
 
 TEST_F(DriverNodeTest, TwoDriversMakeOneFrame) {
