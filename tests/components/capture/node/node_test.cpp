@@ -64,14 +64,14 @@ class Subscriber {
     node_.loop.Attach(depth_, [this] { Take(depth_, &depth_frames, &Subscriber::KeepDepth); });
     node_.loop.Attach(color_, [this] { Take(color_, &color_frames, &Subscriber::KeepColor); });
     node_.loop.Attach(depth_camera_, [this] {
-      for (const auto& camera : depth_camera_.Take()) {
-        fx_px = camera.k[0];
-        distortion_k1 = camera.d._length == 5 ? camera.d._buffer[0] : -1.0;
+      for (const auto& lens : depth_camera_.Take()) {
+        fx_px = lens.k[0];
+        distortion_k1 = lens.d._length == 5 ? lens.d._buffer[0] : -1.0;
         ++depth_cameras;
       }
     });
     node_.loop.Attach(color_camera_, [this] {
-      for (const auto& camera : color_camera_.Take()) color_width = camera.width;
+      for (const auto& lens : color_camera_.Take()) color_width = lens.width;
     });
     node_.loop.Attach(info_, [this] { TakeInfo(); });
     node_.loop.Attach(setup_, [this] {
