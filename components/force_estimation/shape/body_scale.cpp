@@ -7,19 +7,15 @@
 
 #include "components/force_estimation/shape/observation_jacobian.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
+#include "libs/geometry/box.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
 
-double LengthOf_m(const robot::RobotBody& body) {
-  const Eigen::Matrix3Xd& nodes_m = body.mesh.nodes_m;
-  return (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).norm();
-}
-
 BodyScale ScaleOf(const robot::RobotBody& body) {
-  PALPATE_CHECK(!body.feature_points.empty());
   std::vector<robot::ObservationRow> rows;
   for (std::size_t f = 0; f < body.feature_points.size(); ++f) {
     rows.push_back(
@@ -43,8 +39,10 @@ BodyScale ScaleOf(const robot::RobotBody& body) {
     const double compliance_m_N = to_point.row(ToIndex(f)) * body.feature_normals.col(ToIndex(f));
     if (compliance_m_N > 0.0) compliances_m_N.push_back(compliance_m_N);
   }
-  PALPATE_CHECK(!compliances_m_N.empty());
-  const double length_m = LengthOf_m(body);
+  if (compliances_m_N.empty()) {
+    throw InputError("feature_points: none is on a part of the body that can move");
+  }
+  const double length_m = geometry::BoundingBox(body.mesh.nodes_m).Diagonal_m();
   return {.length_m = length_m, .force_N = length_m / Median(compliances_m_N)};
 }
 

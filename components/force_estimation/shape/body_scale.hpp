@@ -15,10 +15,8 @@ struct BodyScale {
   double force_N = 0.0;
 };
 
-/// The diagonal alone.
-double LengthOf_m(const robot::RobotBody& body);
-
-/// `body` has feature points. Takes as long as a factorisation and as many solutions.
+/// Takes as long as a factorisation and as many solutions as there are feature points. Throws
+/// InputError where none of these can move.
 BodyScale ScaleOf(const robot::RobotBody& body);
 
 }  // namespace palpate::force_estimation

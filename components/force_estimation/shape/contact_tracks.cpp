@@ -9,6 +9,7 @@
 
 #include "components/force_estimation/shape/location_step.hpp"
 #include "libs/fem/bounded_qp.hpp"
+#include "libs/geometry/box.hpp"
 
 namespace palpate::force_estimation {
 
@@ -43,7 +44,7 @@ ContactTracks::ContactTracks(const robot::RobotModel& model, const ShapeConfig& 
     : model_(model),
       config_(config),
       tuning_(tuning),
-      length_m_(LengthOf_m(model.body())),
+      length_m_(geometry::BoundingBox(model.body().mesh.nodes_m).Diagonal_m()),
       map_(model, tuning.map) {}
 
 bool ContactTracks::IsSame(const ShapeSite& site, const Eigen::Vector3d& rest_m) const {

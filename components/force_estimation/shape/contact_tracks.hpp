@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "components/force_estimation/shape/body_scale.hpp"
 #include "components/force_estimation/shape/hidden_search.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"

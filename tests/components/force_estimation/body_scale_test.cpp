@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "libs/core/error.hpp"
 #include "libs/robot/calibrated_geometry.hpp"
 #include "tests/support/robots.hpp"
 
@@ -34,6 +35,12 @@ TEST(BodyScale, GrowsWithTheModulusAndTheSquareOfTheSize) {
   const BodyScale large = ScaleOfRod(kModulus_Pa, 2.0);
   EXPECT_NEAR(large.length_m, 2.0 * rod.length_m, 1e-12);
   EXPECT_NEAR(large.force_N, 4.0 * rod.force_N, kTolerance * large.force_N);
+}
+
+TEST(BodyScale, RefusesABodyOfWhichOnlyTheClampIsSeen) {
+  robot::RobotDescription rod = test_support::LinearRobot("rod");
+  rod.feature_points_m = Eigen::Vector3d(-0.1, 0.015, 0.015);
+  EXPECT_THROW(ScaleOf(robot::BuildRobotBody(rod)), InputError);
 }
 
 }  // namespace
