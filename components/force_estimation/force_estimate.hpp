@@ -33,7 +33,8 @@ struct ContactForce {
 /// The forces of one frame.
 struct ForceEstimate {
   /// kOk: `contacts` may be used. kNoContact: the deformation is explained without a force.
-  /// kUnobservable, with contacts: the markers determine none of the forces. kBudgetReached: not
+  /// kUnobservable, with contacts: the markers determine none of the forces; without: the shape
+  /// shows that something pushes, and not where or how hard. kBudgetReached: not
   /// converged within frame_budget_s or max_iterations; the next frame continues.
   Status status;
   double t_s = 0.0;

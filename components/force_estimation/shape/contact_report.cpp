@@ -156,12 +156,23 @@ std::vector<ContactForce> ContactReport::Contacts(const ShapeFitter& fit) const 
     ContactForce contact = ContactAt(fit, s, inflation);
     if (site.hidden && IsZeroWithin(contact.force_N, contact.covariance_N2)) {
       const bool is_only_one = fit.sites().size() == 1;
-      if (!is_only_one || StrengthOf(fit, s) < tuning_.clear_strength) continue;
+      if (!is_only_one || !site.is_beyond_doubt) continue;
       contact.status = Status(StatusCode::kUncertain, {});
     }
     contacts.push_back(std::move(contact));
   }
   return contacts;
+}
+
+Status ContactReport::WithoutContacts(const ShapeFitter& fit) const {
+  const auto pushes_somewhere = [](const ShapeSite& site) {
+    return site.hidden && site.quiet_frames == 0 && (site.acts || site.is_beyond_doubt);
+  };
+  if (std::none_of(fit.sites().begin(), fit.sites().end(), pushes_somewhere)) {
+    return Status(StatusCode::kNoContact, {});
+  }
+  return {StatusCode::kUnobservable,
+          "something out of view pushes: the images do not tell yet where, or how hard"};
 }
 
 Status ContactReport::StatusOf(const ShapeFitter& fit, std::size_t site) const {

@@ -56,6 +56,9 @@ class ContactReport {
   /// ellipsoid does not hold zero: no image shows that something is there. Where nothing else can
   /// explain the shape, one beyond doubt is reported all the same, as kUncertain.
   std::vector<ContactForce> Contacts(const ShapeFitter& fit) const;
+  /// Of a frame in which Contacts has none: kNoContact, or kUnobservable where a hidden contact is
+  /// followed that is certain and cannot be reported.
+  Status WithoutContacts(const ShapeFitter& fit) const;
 
  private:
   double StrengthOf(const ShapeFitter& fit, std::size_t site) const;

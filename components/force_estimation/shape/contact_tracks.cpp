@@ -221,6 +221,7 @@ void ContactTracks::Place(const MaterialPoint& centre, ShapeSite* site) const {
 void ContactTracks::Judge(std::size_t index, Evidence evidence, bool quiet, bool begins) {
   ShapeSite& site = sites_[index];
   ++site.frames;
+  site.is_beyond_doubt = evidence == Evidence::kBeyondDoubt;
   site.significant_frames += evidence == Evidence::kBeyondDoubt ? 2 : 1;
   if (evidence == Evidence::kNone) site.significant_frames = 0;
   site.quiet_frames = quiet ? site.quiet_frames + 1 : 0;

@@ -9,6 +9,7 @@ bool PredictsShape(const ForceEstimate& estimate) {
   switch (estimate.status.code()) {
     case StatusCode::kOk:
     case StatusCode::kNoContact:
+    case StatusCode::kUnobservable:   // the fitted shape, with a force of unknown place
     case StatusCode::kNoCalibration:  // during the calibration frames
     case StatusCode::kBudgetReached:  // before convergence
     case StatusCode::kNoRobotSeen:    // the predicted shape

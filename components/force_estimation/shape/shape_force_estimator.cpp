@@ -133,7 +133,7 @@ Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
 void ShapeForceEstimator::Impl::CommitHistory() {
   const StatusCode code = estimate_.status.code();
   const bool balanced = code == StatusCode::kOk || code == StatusCode::kNoContact ||
-                        code == StatusCode::kNoCalibration;
+                        code == StatusCode::kUnobservable || code == StatusCode::kNoCalibration;
   if (!history_.active() || !published_ || !balanced) return;
   history_.Commit(fit_.state().x_m, fit_.state().lambda_a_N);
 }
@@ -244,7 +244,7 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
   fitted_ = true;
   cables_ = frame.cables;
   Publish();
-  return estimate_.contacts.empty() ? Status(StatusCode::kNoContact, {}) : Status::Ok();
+  return estimate_.contacts.empty() ? report_.WithoutContacts(fit_) : Status::Ok();
 }
 
 Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {

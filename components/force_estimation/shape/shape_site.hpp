@@ -38,10 +38,11 @@ struct ShapeSite {
   Eigen::Matrix3d place_force_covariance_N2 = Eigen::Matrix3d::Zero();
 
   ForceFilter filter;
-  int frames = 0;              ///< in which it was tracked
-  int significant_frames = 0;  ///< in a row, up to the last one; those beyond doubt count twice
-  int quiet_frames = 0;        ///< in a row without a significant force
-  bool acts = false;           ///< its force is reported
+  int frames = 0;                ///< in which it was tracked
+  int significant_frames = 0;    ///< in a row, up to the last one; those beyond doubt count twice
+  bool is_beyond_doubt = false;  ///< its force in the last frame
+  int quiet_frames = 0;          ///< in a row without a significant force
+  bool acts = false;             ///< its force is reported
 };
 
 }  // namespace palpate::force_estimation

@@ -276,9 +276,11 @@ TEST_F(HiddenContactByPlace, IsUncertainWhereItsPlaceLeavesAForceBeyondDoubtOpen
 
 TEST_F(HiddenContactByPlace, IsLeftOutAndFollowedWhereItsPlaceLeavesAWeakForceOpen) {
   constexpr double kWeak_N = 0.01;
+  EXPECT_EQ(report_.WithoutContacts(fit_).code(), StatusCode::kNoContact);
   ASSERT_NO_FATAL_FAILURE(Follow(kWeak_N, kWeak_N));
   EXPECT_TRUE(report_.HoldsZero(fit_, 0));
   EXPECT_TRUE(report_.Contacts(fit_).empty());
+  EXPECT_EQ(report_.WithoutContacts(fit_).code(), StatusCode::kUnobservable);
 }
 
 /// An image then shows what pushes there.
