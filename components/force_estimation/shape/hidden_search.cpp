@@ -116,10 +116,10 @@ HiddenProblem HiddenSearch::Parts::ProblemOf(const Unexplained& data,
   PALPATE_CHECK(data.known.rows() == m || data.known.cols() == 0, data.known.rows(), m);
   PALPATE_CHECK(data.left_m.size() == m || data.left_m.size() == 0, data.left_m.size(), m);
   PushAt(*data.responses);
-  const Eigen::VectorXd scale = weight.cwiseSqrt();
-  HiddenProblem problem(places, *data.responses, data.row, scale, data.residual_m);
-  if (data.errors_m.cols() > 0) problem.Absorb(scale.asDiagonal() * data.errors_m);
-  problem.Ignore(scale.asDiagonal() * data.known);
+  const Eigen::VectorXd root_weight = weight.cwiseSqrt();
+  HiddenProblem problem(places, *data.responses, data.row, root_weight, data.residual_m);
+  if (data.errors_m.cols() > 0) problem.Absorb(root_weight.asDiagonal() * data.errors_m);
+  problem.Ignore(root_weight.asDiagonal() * data.known);
   return problem;
 }
 
