@@ -136,13 +136,15 @@ class Leak final : public FaultModel {
 /// possible.
 class BlockedValve final : public FaultModel {
  public:
-  BlockedValve(const Supplied& at, int recording, double from_s)
+  /// `first_alike`: blocked from there on it would do the same, as nothing was driven in between.
+  BlockedValve(const Supplied& at, int recording, double from_s, int first_alike)
       : FaultModel(
             at.Named("blocked_valve"), "blocked valve of chamber " + at.chamber.name,
             {{.name = "blocked", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
         actuator_(at.actuator),
         recording_(recording),
-        from_s_(from_s) {}
+        from_s_(from_s),
+        first_alike_(first_alike) {}
 
   bool OnActuators() const override { return true; }
   std::optional<int> Start() const override { return recording_; }
@@ -155,13 +157,14 @@ class BlockedValve final : public FaultModel {
                                       const Eigen::MatrixXd& /*covariance*/,
                                       const Eigen::VectorXd& /*undeformed_m*/) const override {
     const auto recording = static_cast<double>(recording_);
-    return {{"from_recording", recording, recording, recording}};
+    return {{"from_recording", recording, static_cast<double>(first_alike_), recording}};
   }
 
  private:
   Eigen::Index actuator_;
   int recording_;
   double from_s_;
+  int first_alike_;
 };
 
 /// z = 1: each of two supplies feeds the other's chamber; 0: its own. Nothing between is possible.
@@ -253,10 +256,13 @@ void MakeLeak(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults)
 void MakeBlockedValve(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
   const Timeline& timeline = inputs.observed.timeline;
   for (const Supplied& chamber : SuppliedChambers(inputs)) {
+    int first_alike = 0;
     for (std::size_t r = 0; r < timeline.begin_s.size(); ++r) {
       if (!IsDriven(timeline, chamber.actuator, r)) continue;
+      const int recording = static_cast<int>(r);
       faults->push_back(
-          std::make_unique<BlockedValve>(chamber, static_cast<int>(r), timeline.begin_s[r]));
+          std::make_unique<BlockedValve>(chamber, recording, timeline.begin_s[r], first_alike));
+      first_alike = recording + 1;
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,14 +25,14 @@ const std::set<std::string> kOfChambers = {"leak",          "slow_valve",    "bl
                                            "pressure_gain", "pressure_zero", "swapped_tubes",
                                            "thin_wall"};
 
-/// The arm with three chambers in linear elements, which are computed in milliseconds.
-robot::RobotBody QuickArm() {
+/// A pneumatic robot in linear elements, which are computed in milliseconds.
+robot::RobotBody QuickRobot(const std::string& name) {
   const std::filesystem::path config = std::filesystem::path(PALPATE_SOURCE_DIR) / "config";
-  robot::RobotDescription arm =
-      robot::ReadRobotFile(config / "robots/pneumatic_arm.yaml", app::LoadYaml);
-  arm.mesh.file = config / "scenarios/pneumatic_arm_coarse.msh";
-  arm.element = fem::ElementType::kTet4;
-  return robot::BuildRobotBody(arm);
+  robot::RobotDescription robot =
+      robot::ReadRobotFile(config / "robots" / (name + ".yaml"), app::LoadYaml);
+  robot.mesh.file = config / "scenarios" / (name + "_coarse.msh");
+  robot.element = fem::ElementType::kTet4;
+  return robot::BuildRobotBody(robot);
 }
 
 /// Pressures of the chambers, Pa, at a time.
@@ -73,9 +74,10 @@ experiment::Experiment ArmExperiment(const robot::RobotBody& body) {
 
 class ChamberFaults : public FaultDerivatives {
  protected:
-  ChamberFaults() : ChamberFaults(QuickArm()) {}
-  explicit ChamberFaults(const robot::RobotBody& body)
-      : FaultDerivatives(body, ArmExperiment(body), nullptr, /*with_mesh_error=*/false) {}
+  ChamberFaults() : ChamberFaults(QuickRobot("pneumatic_arm"), ArmExperiment) {}
+  ChamberFaults(const robot::RobotBody& body,
+                const std::function<experiment::Experiment(const robot::RobotBody&)>& experiment)
+      : FaultDerivatives(body, experiment(body), nullptr, /*with_mesh_error=*/false) {}
 
   const FaultModel& First(const std::string& id) const {
     const auto found = std::find_if(causes_.begin(), causes_.end(),
@@ -88,6 +90,16 @@ class ChamberFaults : public FaultDerivatives {
     ModelHypothesis hypothesis = nominal_;
     if (!id.empty()) First(id).Apply(Eigen::VectorXd::Constant(1, z), &hypothesis);
     return ActuatorChain(observed_).At(hypothesis.actuators);
+  }
+  /// Before the fit, of markers without noise of a robot.
+  std::optional<LikelyFault> FoundBeforeTheFit(const ModelHypothesis& hypothesis) const {
+    const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
+    EXPECT_TRUE(truth.status.ok());
+    ObservedExperiment seen = observed_;
+    for (std::size_t s = 0; s < seen.samples.size(); ++s) {
+      seen.samples[s].position_m = truth.samples[s].markers_m();
+    }
+    return FindNearestRobot(body_, seen, 1, nullptr).fault;
   }
 };
 
@@ -146,13 +158,7 @@ TEST_F(ChamberFaults, AreFoundBeforeTheFitWhereTheyBendTheRobotFar) {
     if (id != "blocked_valve" && id != "swapped_tubes") continue;
     ModelHypothesis hypothesis = nominal_;
     cause->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
-    const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
-    ASSERT_TRUE(truth.status.ok()) << cause->words();
-    ObservedExperiment seen = observed_;
-    for (std::size_t s = 0; s < seen.samples.size(); ++s) {
-      seen.samples[s].position_m = truth.samples[s].markers_m();
-    }
-    const std::optional<LikelyFault> fault = FindNearestRobot(body_, seen, 1, nullptr).fault;
+    const std::optional<LikelyFault> fault = FoundBeforeTheFit(hypothesis);
     ASSERT_TRUE(fault) << cause->words();
     EXPECT_TRUE(fault->Is(*cause)) << cause->words() << " of start " << cause->Start().value_or(-1);
     ++tried;
@@ -164,12 +170,51 @@ TEST_F(ChamberFaults, OfOtherKindsAreNotTakenForThose) {
   for (const char* id : {"leak", "pressure_gain", "slow_valve"}) {
     ModelHypothesis hypothesis = nominal_;
     First(id).Apply(Eigen::VectorXd::Constant(1, 0.3), &hypothesis);
-    const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
-    ObservedExperiment seen = observed_;
-    for (std::size_t s = 0; s < seen.samples.size(); ++s) {
-      seen.samples[s].position_m = truth.samples[s].markers_m();
-    }
-    EXPECT_FALSE(FindNearestRobot(body_, seen, 1, nullptr).fault) << id;
+    EXPECT_FALSE(FoundBeforeTheFit(hypothesis)) << id;
+  }
+}
+
+/// The same bend in each of five recordings.
+experiment::Experiment FingerExperiment(const robot::RobotBody& body) {
+  experiment::Experiment experiment;
+  experiment.markers_sigma_m = Eigen::Vector3d::Constant(3e-4);
+  experiment.rest_between_s = 4.0;
+  for (int r = 0; r < 5; ++r) {
+    const double begin_s = 8.0 * r;
+    experiment.recordings.push_back(PressureRecording(
+        "bend_" + std::to_string(r), body,
+        {{begin_s, {0.0}}, {begin_s + 2.0, {20e3}}, {begin_s + 4.0, {0.0}}}, 0.25));
+  }
+  return experiment;
+}
+
+class FaultsOfTheOnlyChamber : public ChamberFaults {
+ protected:
+  FaultsOfTheOnlyChamber() : ChamberFaults(QuickRobot("pneumatic_finger"), FingerExperiment) {}
+};
+
+/// Also where most recordings are those of a free valve.
+TEST_F(FaultsOfTheOnlyChamber, BlockItsValveFromAnyRecordingOn) {
+  int tried = 0;
+  for (const FaultModelPtr& cause : causes_) {
+    if (cause->name().id != "blocked_valve") continue;
+    ModelHypothesis hypothesis = nominal_;
+    First("youngs_modulus").Apply(Eigen::VectorXd::Constant(1, -0.1), &hypothesis);
+    cause->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
+    const std::optional<LikelyFault> fault = FoundBeforeTheFit(hypothesis);
+    ASSERT_TRUE(fault) << cause->Start().value_or(-1);
+    EXPECT_TRUE(fault->Is(*cause)) << cause->Start().value_or(-1);
+    ++tried;
+  }
+  EXPECT_EQ(tried, 5);
+}
+
+TEST_F(FaultsOfTheOnlyChamber, AreNoBlockedValveWhereItMovesTheBody) {
+  EXPECT_FALSE(FoundBeforeTheFit(nominal_));
+  for (const char* id : {"leak", "pressure_gain", "slow_valve"}) {
+    ModelHypothesis hypothesis = nominal_;
+    First(id).Apply(Eigen::VectorXd::Constant(1, 0.3), &hypothesis);
+    EXPECT_FALSE(FoundBeforeTheFit(hypothesis)) << id;
   }
 }
 
