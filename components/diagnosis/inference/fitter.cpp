@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "libs/core/index.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -153,7 +154,7 @@ Fit Fitter::Complete(Fit fit) const {
 /// as long as its actuator's zero is where the file has it.
 Fit Fitter::Continued(Fit fit) const {
   int failures = 0;
-  Eigen::VectorXd to = PointFrom(fit, fit.faults);
+  Eigen::VectorXd to = PointFrom(fit, fit.faults, fit.posterior.scale);
   // Against a nominal robot that was not fitted to its end anything is evidence.
   const bool may_end = !fit.faults.empty();
   for (int step = 0;
@@ -174,27 +175,21 @@ Fit Fitter::Continued(Fit fit) const {
     next = InAllDetail(std::move(next), &fit);
     if (!next.status.ok()) return fit;
     fit = std::move(next);
-    to = PointFrom(fit, fit.faults);
+    to = PointFrom(fit, fit.faults, fit.posterior.scale);
   }
   return fit;
-}
-
-Eigen::VectorXd Fitter::ScaleFor(const Fit& about, const std::vector<int>& faults) const {
-  if (about.faults == faults && about.posterior.scale.size() > 0) return about.posterior.scale;
-  return hypotheses_.InferScale(about.model.All(), faults);
 }
 
 /// Where to simulate next: what is most probable of robots with little of what has one sign only,
 /// as far as it is no fault, with none of it. Damped, it is not far from there.
 Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faults,
-                                  double damping) const {
+                                  const Eigen::VectorXd& scale, double damping) const {
   Information data = about.model.All();
   if (damping > 0.0) {
     const Eigen::VectorXd hold = damping * data.H.diagonal();
     data.H.diagonal() += hold;
     data.b += hold.cwiseProduct(about.z);
   }
-  const Eigen::VectorXd scale = ScaleFor(about, faults);
   const Posterior all = hypotheses_.InferWithin(data, faults, scale);
   std::vector<Eigen::Index> at_zero;
   for (int k = 0; k < hypotheses_.size(); ++k) {
@@ -202,7 +197,9 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
     for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p) {
       const Eigen::Index column = hypotheses_.first(k) + p;
       const bool one_sided = hypotheses_.model(k).parameters()[At(p)].least == 0.0;
+      // What is there already stays free: chi-squared would jump where its mean passes that limit.
       const bool little =
+          about.z[column] == 0.0 &&
           all.mean[column] < tuning_.one_sided_tolerances * null_prior_.sigma[column];
       if (one_sided && little) at_zero.push_back(column);
     }
@@ -225,9 +222,9 @@ Eigen::VectorXd Fitter::FaultStart(const std::vector<int>& faults, const Fit& st
   return z;
 }
 
-bool Fitter::IsNear(const Fit& fit) const {
+bool Fitter::IsNear(const Fit& fit, const Eigen::VectorXd& scale) const {
   const GaussianPrior prior = hypotheses_.PriorWith(fit.faults);
-  const Eigen::VectorXd step = PointFrom(fit, fit.faults) - fit.z;
+  const Eigen::VectorXd step = PointFrom(fit, fit.faults, scale) - fit.z;
   const Eigen::VectorXd simulated = hypotheses_.Simulated(step);
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     if (simulated[p] == 0.0) continue;
@@ -240,21 +237,57 @@ bool Fitter::IsNear(const Fit& fit) const {
   return true;
 }
 
+bool Fitter::IsStretched(const Fit& fit) const {
+  const Eigen::VectorXd z = hypotheses_.Simulated(fit.z);
+  for (Eigen::Index p = 0; p < z.size(); ++p) {
+    const double tolerance = null_prior_.sigma[p];
+    if (tolerance > 0.0 && std::abs(z[p]) > tuning_.stretched_tolerances * tolerance) return true;
+  }
+  return false;
+}
+
 bool Fitter::IsKnownBySimulation(int k, const Fit& fit) const {
   return fit.complete && hypotheses_.model(k).NeedsSimulation(
                              fit.z.segment(hypotheses_.first(k), hypotheses_.count(k)));
 }
 
-double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z,
+double Fitter::MisfitAt(const Fit& about, const std::vector<int>& faults, const Eigen::VectorXd& z,
                         const Eigen::VectorXd& scale) const {
-  const Information& data = fit.model.All();
-  const GaussianPrior prior = hypotheses_.PriorWith(fit.faults, scale);
+  const Information& data = about.model.All();
+  const GaussianPrior prior = hypotheses_.PriorWith(faults, scale);
   double misfit = data.c + z.dot(data.H * z - 2.0 * data.b);
   for (Eigen::Index p = 0; p < z.size(); ++p) {
     if (prior.sigma[p] == 0.0) continue;
     misfit += std::pow((z[p] - prior.mean[p]) / prior.sigma[p], 2);
   }
   return misfit;
+}
+
+double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z,
+                        const Eigen::VectorXd& scale) const {
+  return MisfitAt(fit, fit.faults, z, scale);
+}
+
+/// Where the discrepancies were when the fit was simulated was of another linear model.
+double Fitter::MisfitOf(const Fit& fit, const Eigen::VectorXd& scale) const {
+  const Information& data = fit.model.All();
+  const GaussianPrior prior = hypotheses_.PriorWith(fit.faults, scale);
+  Eigen::VectorXd z = hypotheses_.Simulated(fit.z);
+  std::vector<Eigen::Index> added;
+  for (int k = 0; k < hypotheses_.size(); ++k) {
+    if (!hypotheses_.model(k).AddsToPrediction()) continue;
+    for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p)
+      if (prior.sigma[hypotheses_.first(k) + p] > 0.0) added.push_back(hypotheses_.first(k) + p);
+  }
+  if (!added.empty()) {
+    const Eigen::VectorXd weight = prior.sigma(added).cwiseAbs2().cwiseInverse();
+    Eigen::MatrixXd H = data.H(added, added);
+    H.diagonal() += weight;
+    const Eigen::VectorXd pull = weight.cwiseProduct(prior.mean(added));
+    const Eigen::VectorXd left = data.b - data.H * z;
+    z(added) = linalg::SolveSymmetric(H, Eigen::VectorXd(left(added) + pull));
+  }
+  return MisfitAt(fit, z, scale);
 }
 
 bool Fitter::HasKinks(const std::vector<int>& faults) const {
@@ -269,6 +302,19 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
   return Refine(faults, near, tuning_.most_rounds, Detail::kParts);
 }
 
+/// With what the `wanted` faults do there, and of the rest what they do in `from`.
+Fit Fitter::Simulated(const Eigen::VectorXd& z, const std::vector<int>& faults,
+                      const Simulation& from, Detail detail,
+                      const std::vector<bool>& wanted) const {
+  Fit fit;
+  fit.faults = faults;
+  fit.z = z;
+  fit.simulation = simulator_.Run(HypothesisWith(nominal_, models_, z), &from, detail);
+  fit.status = fit.simulation.status;
+  if (fit.status.ok()) Differentiate(wanted, &from, &fit);
+  return fit;
+}
+
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
                    Detail detail) const {
   // Over kinks chi-squared goes up and down by some hundredths from place to place.
@@ -279,29 +325,28 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   Fit fit;
   fit.z = FaultStart(faults, start);
   fit.posterior = LinearPosterior(start, faults);
-  // One prior for all steps, else their misfits do not compare.
+  // One prior for all steps, else their misfits do not compare: discrepancies that grow on the way
+  // would take what the faults are to explain.
   const Eigen::VectorXd scale = fit.posterior.scale;
   const Simulation* from = &start.simulation;
-  Eigen::VectorXd to = PointFrom(start, faults);
+  Eigen::VectorXd to = PointFrom(start, faults, scale);
   double misfit = std::numeric_limits<double>::infinity();
   double damping = 0.0;
+  double ln_surprise = 0.0;
   int failures = 0;
   for (int round = 0; round < most_rounds && failures < most_failures; ++round) {
     const double before = fit.posterior.ln_evidence;
-    Fit next;
-    next.faults = faults;
+    Fit next = Simulated(to, faults, *from, detail, wanted);
     next.bends_known = detail == Detail::kParts || (start.bends_known && HasKinks(start.faults));
-    next.z = to;
-    next.simulation = simulator_.Run(HypothesisWith(nominal_, models_, next.z), from, detail);
-    next.status = next.simulation.status;
-    if (next.status.ok()) Differentiate(wanted, from, &next);
     if (next.model.y.size() < start.model.y.size() && next.status.ok()) next.status = FewerData();
-    const double now = next.status.ok() ? MisfitAt(next, next.z, scale) : misfit;
+    const double now = next.status.ok() ? MisfitOf(next, scale) : misfit;
+    if (round == 0 && next.status.ok())
+      ln_surprise = 0.5 * std::max(0.0, now - MisfitAt(start, faults, to, scale));
     const bool placed = fit.status.ok();
     if (next.status.ok() && now > misfit && now < (1.0 + tuning_.settled_misfit) * misfit) break;
     if (!next.status.ok() || now > misfit) {
       damping = std::max(tuning_.least_damping, tuning_.damp_more * damping);
-      to = placed ? PointFrom(fit, faults, damping) : 0.5 * (fit.z + to);
+      to = placed ? PointFrom(fit, faults, scale, damping) : 0.5 * (fit.z + to);
       failures += placed;
       if (placed && IsOutOfTime()) break;
       continue;
@@ -312,7 +357,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     misfit = now;
     fit = std::move(next);
     from = &fit.simulation;
-    to = PointFrom(fit, faults, damping);
+    to = PointFrom(fit, faults, scale, damping);
     const bool there = misfit < (1.0 + tuning_.still_to_go) * MisfitAt(fit, to, scale);
     const bool settled =
         there && std::abs(fit.posterior.ln_evidence - before) < tuning_.settled_ln_evidence;
@@ -321,8 +366,9 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     const bool hopeless = round + 1 >= tuning_.rounds_to_hope &&
                           faults.size() > start.faults.size() &&
                           fit.posterior.ln_evidence + gained < start.posterior.ln_evidence;
-    if (little || settled || hopeless || IsNear(fit) || IsOutOfTime()) break;
+    if (little || settled || hopeless || IsNear(fit, scale) || IsOutOfTime()) break;
   }
+  fit.ln_surprise = ln_surprise;
   return fit;
 }
 

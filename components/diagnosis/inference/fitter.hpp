@@ -26,6 +26,7 @@ struct FitterTuning {
   double still_to_go = 0.2;     ///< of chi-squared, that the linear model may promise at the end
   double near_fault = 0.5;      ///< a step below this share of a fault's deviation is the last
   double near_tolerance = 1.5;  ///< and below so many tolerances of any other parameter
+  double stretched_tolerances = 2.0;   ///< a null model with more of one is far from the nominal
   double one_sided_tolerances = 2.0;   ///< one-sided parameters (backlash) below are held at zero
   double least_damping = 0.03;         ///< Levenberg-Marquardt, of the diagonal
   double damp_more = 10.0;             ///< after a step that fits worse
@@ -47,6 +48,8 @@ struct Fit {
   bool complete = false;  ///< all columns of `model` are of this place
   bool arrived = false;   ///< and it cannot be taken further
   Posterior posterior;    ///< of all parameters
+  /// By how much ln p the first simulated step fitted worse than the linear model had promised.
+  double ln_surprise = 0.0;
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
@@ -93,6 +96,9 @@ class Fitter {
   /// Posterior of the hypothesis `faults` by the linear model of `about`, without a simulation.
   Posterior LinearPosterior(const Fit& about, const std::vector<int>& faults) const;
 
+  /// Whether a fit has more than two tolerances of anything.
+  bool IsStretched(const Fit& fit) const;
+
   const HypothesisSet& hypotheses() const { return hypotheses_; }
   const NoiseModel& noise() const { return noise_; }
   bool IsOutOfTime() const { return limit_.IsOver(); }
@@ -100,21 +106,26 @@ class Fitter {
   const Eigen::Matrix3Xd& marker_rest_m() const { return marker_rest_m_; }
 
  private:
-  /// `damping`: a step of Levenberg and Marquardt, so many times what the data say of each
-  /// parameter by itself; it shortens most what only trades one parameter for another, as size for
-  /// place.
+  /// `scale`: deviations of the discrepancies. `damping`: a step of Levenberg and Marquardt, so
+  /// many times what the data say of each parameter by itself; it shortens most what only trades
+  /// one parameter for another, as size for place.
   Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults,
-                            double damping = 0.0) const;
+                            const Eigen::VectorXd& scale, double damping = 0.0) const;
   LinearModel LinearModelOf(const Fit& fit) const;
   bool HasKinks(const std::vector<int>& faults) const;
+  Fit Simulated(const Eigen::VectorXd& z, const std::vector<int>& faults, const Simulation& from,
+                Detail detail, const std::vector<bool>& wanted) const;
   Eigen::VectorXd FaultStart(const std::vector<int>& faults, const Fit& start) const;
   /// Chi-squared of data and prior at `z`, as the linear model of `fit` has it, with the
   /// discrepancies' deviations `scale`.
   double MisfitAt(const Fit& fit, const Eigen::VectorXd& z, const Eigen::VectorXd& scale) const;
-  /// Deviations of the discrepancies under the hypothesis `faults`.
-  Eigen::VectorXd ScaleFor(const Fit& about, const std::vector<int>& faults) const;
+  /// The same of the hypothesis `faults`, which need not be those that `about` was fitted with.
+  double MisfitAt(const Fit& about, const std::vector<int>& faults, const Eigen::VectorXd& z,
+                  const Eigen::VectorXd& scale) const;
+  /// The same where the fit was simulated, with the discrepancies at their best there.
+  double MisfitOf(const Fit& fit, const Eigen::VectorXd& scale) const;
   /// Whether a fit's linear model was made where its posterior is.
-  bool IsNear(const Fit& fit) const;
+  bool IsNear(const Fit& fit, const Eigen::VectorXd& scale) const;
   /// With the same faults at `z`, what faults do there taken from `fit`.
   Fit MovedTo(const Eigen::VectorXd& z, const Fit& fit) const;
   /// With what every fault does there; what only runs tell, from `near` where there is one.

@@ -211,6 +211,7 @@ double IndistinguishableWithin(const HypothesisSet& hypotheses, int named, const
 
 bool ForwardSelectionStep::Search() {
   candidates_ = Screen(fitter_, before_, before_.faults);
+  if (nominal_ != nullptr) ScreenFromTheNominal();
   if (likely_) SimulateLikely(*likely_);
   if (candidates_.empty() ||
       candidates_.front().ln_bayes_factor < kSelectionTuning.indistinguishable_evidence) {
@@ -219,9 +220,10 @@ bool ForwardSelectionStep::Search() {
   }
   const CrossValidation cross_validation =
       LeaveOneOut(fitter_.hypotheses(), before_.model, before_.faults);
-  for (int round = 0; round < kSelectionTuning.most_rounds && found_ >= candidates_.size();
-       ++round) {
-    if (round > 0 && !AreOthersPromising()) break;
+  for (int round = 0; round < kSelectionTuning.most_rounds; ++round) {
+    const bool found = found_ < candidates_.size();
+    if (round > 0 && !(found ? MayAnotherExplainAsMuch() : AreOthersPromising())) break;
+    found_ = candidates_.size();
     RefineTheBest();
     FindOneThatIsClear(cross_validation);
   }
@@ -246,6 +248,22 @@ bool ForwardSelectionStep::IsSpecialCaseOf(std::size_t special, std::size_t k) c
   return fitter_.hypotheses().IsSpecialCase(candidates_[special].fault, candidates_[k].fault);
 }
 
+void ForwardSelectionStep::ScreenFromTheNominal() {
+  const HypothesisSet& hypotheses = fitter_.hypotheses();
+  const double ln_behind = before_.posterior.ln_evidence - nominal_->posterior.ln_evidence;
+  for (Candidate& there : Screen(fitter_, *nominal_, before_.faults)) {
+    there.ln_bayes_factor -= ln_behind;
+    there.ln_screened -= ln_behind;
+    const auto here = std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& one) {
+      return hypotheses.model(one.fault).name() == hypotheses.model(there.fault).name();
+    });
+    there.from_nominal = true;
+    if (here != candidates_.end() && here->ln_bayes_factor < there.ln_bayes_factor)
+      *here = std::move(there);
+  }
+  SortByEvidence(&candidates_);
+}
+
 void ForwardSelectionStep::SimulateLikely(const LikelyFault& likely) {
   const HypothesisSet& hypotheses = fitter_.hypotheses();
   const auto tried = std::find_if(
@@ -267,7 +285,7 @@ void ForwardSelectionStep::SimulateLikely(const LikelyFault& likely) {
 bool ForwardSelectionStep::AreOthersPromising() const {
   const std::size_t next = fits_.size();
   if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
-  if (candidates_[next].ln_bayes_factor < clear_evidence_) return false;
+  if (candidates_[next].ln_bayes_factor + ln_gained_ < clear_evidence_) return false;
   for (std::size_t k = 0; k < fits_.size(); ++k) {
     const Candidate& tried = candidates_[k];
     const bool can_be = !tried.ruled_out && tried.ln_bayes_factor >= clear_evidence_;
@@ -281,6 +299,13 @@ bool ForwardSelectionStep::PromisesAnotherMoreThan(std::size_t k) const {
   return next < candidates_.size() &&
          candidates_[next].ln_bayes_factor >
              candidates_[k].ln_bayes_factor + kSelectionTuning.refined_within;
+}
+
+bool ForwardSelectionStep::MayAnotherExplainAsMuch() const {
+  const std::size_t next = fits_.size();
+  if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
+  const double promised = candidates_[next].ln_bayes_factor;
+  return promised >= clear_evidence_ && promised + ln_error_ > candidates_[found_].ln_bayes_factor;
 }
 
 void ForwardSelectionStep::FindOneThatIsClear(const CrossValidation& cross_validation) {
@@ -314,7 +339,8 @@ void ForwardSelectionStep::RefineTheBest() {
     Candidate& candidate = candidates_[k];
     const bool special = k > first && IsSpecialCaseOf(k, k - 1);
     if (!special &&
-        candidate.ln_bayes_factor < std::max(least, best - kSelectionTuning.refined_within))
+        candidate.ln_bayes_factor <
+            std::max(least, best - std::max(kSelectionTuning.refined_within, ln_error_)))
       break;
     if (k > 0 && fitter_.IsOutOfTime()) break;
     Fit fit = RefineFromItsStarts(&candidate);
@@ -322,31 +348,43 @@ void ForwardSelectionStep::RefineTheBest() {
     candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_screened : kImpossible;
     candidate.refined = true;
     // Where one gains on what was guessed of it, another may, too.
+    if (fit.status.ok()) LearnFrom(now - candidate.ln_screened, fit.ln_surprise);
     best = std::max(best, std::min(candidate.ln_screened, candidate.ln_bayes_factor));
     fits_.push_back(std::move(fit));
   }
   SortRefined();
-  // Out of time, only what may be named is completed (IsClear).
-  for (std::size_t k = fits_.size(); k-- > 0 && !fitter_.IsOutOfTime();) {
-    const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
-    // A further fault that cannot reach the least evidence needs no probability.
-    if (behind < kSelectionTuning.indistinguishable_evidence &&
-        candidates_[k].ln_bayes_factor >= least)
-      Complete(k);
-  }
+  CompleteTheBest(least);
   SortRefined();
+}
+
+/// Out of time, only what may be named is completed (IsClear). A further fault that cannot reach
+/// the least evidence needs no probability.
+void ForwardSelectionStep::CompleteTheBest(double least) {
+  const double front = candidates_.front().ln_bayes_factor;
+  double within = kSelectionTuning.indistinguishable_evidence;
+  for (std::size_t k = 0; k < fits_.size() && !fitter_.IsOutOfTime(); ++k) {
+    const double before = candidates_[k].ln_bayes_factor;
+    if (before < least || front - before >= within) continue;
+    Complete(k);
+    // What completing one gains, it may gain of another, too.
+    if (!likely_) within = std::max(within, candidates_[k].ln_bayes_factor - before);
+  }
+}
+
+const Fit& ForwardSelectionStep::StartOf(const Candidate& candidate) const {
+  return candidate.from_nominal ? *nominal_ : before_;
 }
 
 Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
   if (candidate->starts.size() < 2) {
     const std::vector<int> faults = With(before_.faults, candidate->fault);
     const bool was_tried = tried_.status.ok() && tried_.faults == faults;
-    return fitter_.Refine(faults, was_tried ? tried_ : before_);
+    return fitter_.Refine(faults, was_tried ? tried_ : StartOf(*candidate));
   }
   Fit best;
   for (const int fault : candidate->starts) {
     if (!best.faults.empty() && fitter_.IsOutOfTime()) break;
-    Fit fit = fitter_.Refine(With(before_.faults, fault), before_,
+    Fit fit = fitter_.Refine(With(before_.faults, fault), StartOf(*candidate),
                              kSelectionTuning.rounds_to_compare, Detail::kMiddles);
     const bool better = fit.status.ok() && (!best.status.ok() ||
                                             fit.posterior.ln_evidence > best.posterior.ln_evidence);
@@ -365,6 +403,14 @@ void ForwardSelectionStep::Complete(std::size_t k) {
   fits_[k] = AtTheBestPlace(fitter_, fitter_.Complete(std::move(fits_[k])), &candidates_[k].fault);
   const double now = fits_[k].posterior.ln_evidence;
   candidates_[k].ln_bayes_factor += fits_[k].status.ok() ? now - before : kImpossible;
+  const double ln_gain = now - before_.posterior.ln_evidence - candidates_[k].ln_screened;
+  if (fits_[k].status.ok()) LearnFrom(ln_gain, fits_[k].ln_surprise);
+}
+
+void ForwardSelectionStep::LearnFrom(double ln_gain, double ln_surprise) {
+  if (likely_) return;
+  ln_gained_ = std::max(ln_gained_, ln_gain);
+  ln_error_ = std::max({ln_error_, ln_gain, ln_surprise});
 }
 
 void ForwardSelectionStep::SortRefined() {
@@ -481,9 +527,13 @@ void ForwardSelectionStep::Explain() {
     if (k == found_ || !candidate.why_not.empty()) continue;
     if (k < fits_.size() && PromisesAnotherMoreThan(k)) {
       candidate.why_not = "another fault that promises more was not simulated";
-      continue;
+    } else if (first >= 0) {
+      candidate.why_not = "another fault explains more";
+    } else if (!candidate.refined && candidate.ln_bayes_factor >= clear_evidence_) {
+      candidate.why_not = "it was not simulated: another fault promises more, and is none";
+    } else {
+      candidate.why_not = BelowClearEvidence(k);
     }
-    candidate.why_not = first >= 0 ? "another fault explains more" : BelowClearEvidence(k);
   }
 }
 

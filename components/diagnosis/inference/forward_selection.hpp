@@ -43,10 +43,11 @@ struct Candidate {
   double ln_bayes_factor = 0.0;  ///< against the faults named before; those of one name averaged
   double ln_screened = 0.0;      ///< the same of that one alone, before it was simulated
   double canonical_correlation =
-      0.0;                   ///< canonical correlation of its effect with that of the first named
-  bool refined = false;      ///< simulated again where it fits best
-  std::string why_not = {};  ///< empty: named
-  bool ruled_out = false;    ///< where it fits best it is no fault, or more than any robot has
+      0.0;                    ///< canonical correlation of its effect with that of the first named
+  bool from_nominal = false;  ///< the linear model of the nominal robot promises more
+  bool refined = false;       ///< simulated again where it fits best
+  std::string why_not = {};   ///< empty: named
+  bool ruled_out = false;     ///< where it fits best it is no fault, or more than any robot has
   std::vector<int> starts = {};  ///< faults of its name to simulate, the most probable first
 };
 
@@ -83,14 +84,15 @@ struct Choice {
 /// and takes the best that passes acceptance and cross-validation.
 class ForwardSelectionStep {
  public:
-  /// All must outlive it.
-  /// `clear_evidence`: ln BF that a fault must have to be named.
+  /// All must outlive it. `nominal`: where else faults are fitted from, the nominal robot beside
+  /// `before`; nullptr: from nowhere. `clear_evidence`: ln BF that a fault must have to be named.
   ForwardSelectionStep(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before,
-                       const std::optional<LikelyFault>& likely,
+                       const Fit* nominal, const std::optional<LikelyFault>& likely,
                        double clear_evidence = kSelectionTuning.clear_evidence)
       : observed_(observed),
         fitter_(fitter),
         before_(before),
+        nominal_(nominal),
         likely_(likely),
         clear_evidence_(clear_evidence) {}
   /// Whether there is one; then choice() and fit() are about it.
@@ -104,6 +106,8 @@ class ForwardSelectionStep {
 
  private:
   bool IsSpecialCaseOf(std::size_t special, std::size_t k) const;
+  /// What the linear model of the nominal robot promises, where that is more.
+  void ScreenFromTheNominal();
   /// Simulates that fault; the result replaces the evidence of the linear model.
   void SimulateLikely(const LikelyFault& likely);
   /// Whether to simulate a further round: no simulated candidate is acceptable, or the next one
@@ -111,6 +115,9 @@ class ForwardSelectionStep {
   bool AreOthersPromising() const;
   /// Whether one that was not simulated promises clearly more than this one explains.
   bool PromisesAnotherMoreThan(std::size_t k) const;
+  /// Whether one that was not simulated may explain as much as the one found, were the linear model
+  /// as wrong about it.
+  bool MayAnotherExplainAsMuch() const;
   /// Of those that were simulated and explain no less than another promises; each is judged once.
   void FindOneThatIsClear(const CrossValidation& cross_validation);
   /// Behind those that they are special cases of, as far as these are evaluated.
@@ -119,8 +126,14 @@ class ForwardSelectionStep {
   void RefineTheBest();
   /// The start that fits best after a few rounds becomes the candidate's fault, and goes on.
   Fit RefineFromItsStarts(Candidate* candidate) const;
+  const Fit& StartOf(const Candidate& candidate) const;
   /// With what tolerances do where the fit is, and at the best of its places.
   void Complete(std::size_t k);
+  /// Those that may be the best once they are complete.
+  void CompleteTheBest(double least);
+  /// Remembers how wrong the linear model was; not beside a likely fault, where that model is of a
+  /// robot far off, and everything else promises too much.
+  void LearnFrom(double ln_gain, double ln_surprise);
   void SortRefined();
   bool IsClear(const CrossValidation& before, std::size_t k);
   /// Half of the prior weight is on "no further fault".
@@ -136,11 +149,14 @@ class ForwardSelectionStep {
   const ObservedExperiment& observed_;
   const Fitter& fitter_;
   const Fit& before_;
+  const Fit* nominal_;
   const std::optional<LikelyFault>& likely_;
   double clear_evidence_;
   Fit tried_;  ///< with the likely one; or with no faults
   std::vector<Candidate> candidates_;
-  std::vector<Fit> fits_;  ///< of the first candidates, that were refined
+  std::vector<Fit> fits_;   ///< of the first candidates, that were refined
+  double ln_gained_ = 0.0;  ///< most that one gained on what the linear model promised
+  double ln_error_ = 0.0;   ///< that, or the most that a first step was off
   std::size_t found_ = static_cast<std::size_t>(-1);
   Choice choice_;
 };

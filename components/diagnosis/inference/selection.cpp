@@ -88,7 +88,10 @@ Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
     if (number > 0 && fitter.IsOutOfTime()) break;
     report(2 + number, steps,
            number == 0 ? "forward selection: first fault" : "forward selection: further fault");
-    ForwardSelectionStep next(observed, fitter, selection.best, likely, selection.clear_evidence);
+    // Tolerances that were stretched for a fault hide it: its effect on that body is another one.
+    const bool is_far = number == 0 && !rematch && !likely && fitter.IsStretched(selection.best);
+    ForwardSelectionStep next(observed, fitter, selection.best, is_far ? &as_built : nullptr,
+                              likely, selection.clear_evidence);
     const bool found = next.Search();
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;

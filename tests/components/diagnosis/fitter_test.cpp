@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/inference/fitter.hpp"
 
+#include "components/diagnosis/inference/forward_selection.hpp"
 #include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
@@ -61,6 +62,30 @@ class FitterOfHealthyRobots : public HiddenFaults {
     return LeftBy(Simulator(observed_, 1).Run(hypothesis));
   }
 };
+
+/// Of a linear fault nothing, of others the more the larger they are.
+TEST_F(FitterOfHealthyRobots, TellHowFarTheLinearModelWasOff) {
+  const auto surprise = [&](double gain) {
+    Measure({{"cable_gain", "cable:aside", gain}});
+    const Fitter fitter(observed_, body_, hypotheses_, {.relative_error = 1e-6}, 1);
+    const Fit as_built = fitter.AsBuilt();
+    EXPECT_FALSE(fitter.IsStretched(as_built));
+    const Fit fit = fitter.Refine({Number("cable_gain", "cable:aside")}, as_built);
+    EXPECT_TRUE(fit.status.ok()) << fit.status.message();
+    return fit.ln_surprise;
+  };
+  const double of_small = surprise(0.05);
+  const double of_large = surprise(0.4);
+  EXPECT_GE(of_small, 0.0);
+  EXPECT_GT(of_large, 10.0 * of_small);
+  EXPECT_GT(of_large, kSelectionTuning.refined_within);
+}
+
+TEST_F(FitterOfHealthyRobots, AreStretchedWhereTolerancesTakeAFault) {
+  Measure({{"cable_gain", "cable:aside", 0.3}});
+  const Fitter fitter(observed_, body_, hypotheses_, {.relative_error = 1e-6}, 1);
+  EXPECT_TRUE(fitter.IsStretched(fitter.Complete(fitter.AsBuilt())));
+}
 
 TEST_F(FitterOfHealthyRobots, GoOnUntilTheDataFitAsPromised) {
   // Two tolerances, with which the cable pulls at rest.
