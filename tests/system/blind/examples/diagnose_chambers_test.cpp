@@ -106,5 +106,20 @@ TEST_F(DiagnoseChambers, FindThePressureSensorsZero) {
                "zero_Pa", -2500.0);
 }
 
+/// What it does is far from linear, and tolerances and a sensor's gain do much the same.
+TEST_F(DiagnoseChambers, FindAThinWall) {
+  Take("pneumatic_finger");
+  ExpectWithin(Named("{id: thin_wall, where: chamber:bend, thinner_m: 0.001}", "thin_wall"),
+               "thinner_m", 0.001);
+}
+
+TEST_F(DiagnoseChambers, FindSwappedTubes) {
+  Take("pneumatic_arm");
+  const nlohmann::json verdict =
+      VerdictOn("{id: swapped_tubes, where: [chamber:east, chamber:south_west]}");
+  ASSERT_FALSE(verdict["causes"].empty()) << verdict["reason"];
+  EXPECT_EQ(verdict["causes"][0]["id"], "swapped_tubes") << verdict["reason"];
+}
+
 }  // namespace
 }  // namespace palpate::blind
