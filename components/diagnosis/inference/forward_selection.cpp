@@ -220,10 +220,9 @@ bool ForwardSelectionStep::Search() {
   }
   const CrossValidation cross_validation =
       LeaveOneOut(fitter_.hypotheses(), before_.model, before_.faults);
-  for (int round = 0; round < kSelectionTuning.most_rounds; ++round) {
-    const bool found = found_ < candidates_.size();
-    if (round > 0 && !(found ? MayAnotherExplainAsMuch() : AreOthersPromising())) break;
-    found_ = candidates_.size();
+  for (int round = 0; round < kSelectionTuning.most_rounds && found_ >= candidates_.size();
+       ++round) {
+    if (round > 0 && !AreOthersPromising()) break;
     RefineTheBest();
     FindOneThatIsClear(cross_validation);
   }
@@ -301,13 +300,6 @@ bool ForwardSelectionStep::PromisesAnotherMoreThan(std::size_t k) const {
              candidates_[k].ln_bayes_factor + kSelectionTuning.refined_within;
 }
 
-bool ForwardSelectionStep::MayAnotherExplainAsMuch() const {
-  const std::size_t next = fits_.size();
-  if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
-  const double promised = candidates_[next].ln_bayes_factor;
-  return promised >= clear_evidence_ && promised + ln_error_ > candidates_[found_].ln_bayes_factor;
-}
-
 void ForwardSelectionStep::FindOneThatIsClear(const CrossValidation& cross_validation) {
   for (std::size_t k = 0; k < fits_.size(); ++k) {
     if (!candidates_[k].why_not.empty() || PromisesAnotherMoreThan(k)) continue;
@@ -335,13 +327,16 @@ void ForwardSelectionStep::RefineTheBest() {
   const double least = before_.faults.empty() ? kSelectionTuning.indistinguishable_evidence
                                               : kSelectionTuning.further_promise;
   double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = first; k < end; ++k) {
+  double reach = kSelectionTuning.refined_within;
+  bool last = false;
+  for (std::size_t k = first; k < end && !last; ++k) {
     Candidate& candidate = candidates_[k];
     const bool special = k > first && IsSpecialCaseOf(k, k - 1);
-    if (!special &&
-        candidate.ln_bayes_factor <
-            std::max(least, best - std::max(kSelectionTuning.refined_within, ln_error_)))
-      break;
+    if (!special) {
+      if (candidate.ln_bayes_factor < std::max(least, best - reach)) break;
+      // One more where the linear model was so wrong about the others.
+      if (candidate.ln_bayes_factor < best - kSelectionTuning.refined_within) last = true;
+    }
     if (k > 0 && fitter_.IsOutOfTime()) break;
     Fit fit = RefineFromItsStarts(&candidate);
     const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
@@ -350,6 +345,7 @@ void ForwardSelectionStep::RefineTheBest() {
     // Where one gains on what was guessed of it, another may, too.
     if (fit.status.ok()) LearnFrom(now - candidate.ln_screened, fit.ln_surprise);
     best = std::max(best, std::min(candidate.ln_screened, candidate.ln_bayes_factor));
+    reach = std::max(kSelectionTuning.refined_within, ln_error_);
     fits_.push_back(std::move(fit));
   }
   SortRefined();

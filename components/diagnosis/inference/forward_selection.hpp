@@ -115,9 +115,6 @@ class ForwardSelectionStep {
   bool AreOthersPromising() const;
   /// Whether one that was not simulated promises clearly more than this one explains.
   bool PromisesAnotherMoreThan(std::size_t k) const;
-  /// Whether one that was not simulated may explain as much as the one found, were the linear model
-  /// as wrong about it.
-  bool MayAnotherExplainAsMuch() const;
   /// Of those that were simulated and explain no less than another promises; each is judged once.
   void FindOneThatIsClear(const CrossValidation& cross_validation);
   /// Behind those that they are special cases of, as far as these are evaluated.
