@@ -327,15 +327,15 @@ void ForwardSelectionStep::RefineTheBest() {
   const double least = before_.faults.empty() ? kSelectionTuning.indistinguishable_evidence
                                               : kSelectionTuning.further_promise;
   double best = -std::numeric_limits<double>::infinity();
-  double reach = kSelectionTuning.refined_within;
   bool last = false;
   for (std::size_t k = first; k < end && !last; ++k) {
     Candidate& candidate = candidates_[k];
     const bool special = k > first && IsSpecialCaseOf(k, k - 1);
     if (!special) {
+      const double reach = std::max(kSelectionTuning.refined_within, ln_error_);
       if (candidate.ln_bayes_factor < std::max(least, best - reach)) break;
       // One more where the linear model was so wrong about the others.
-      if (candidate.ln_bayes_factor < best - kSelectionTuning.refined_within) last = true;
+      last = candidate.ln_bayes_factor < best - kSelectionTuning.refined_within;
     }
     if (k > 0 && fitter_.IsOutOfTime()) break;
     Fit fit = RefineFromItsStarts(&candidate);
@@ -345,7 +345,6 @@ void ForwardSelectionStep::RefineTheBest() {
     // Where one gains on what was guessed of it, another may, too.
     if (fit.status.ok()) LearnFrom(now - candidate.ln_screened, fit.ln_surprise);
     best = std::max(best, std::min(candidate.ln_screened, candidate.ln_bayes_factor));
-    reach = std::max(kSelectionTuning.refined_within, ln_error_);
     fits_.push_back(std::move(fit));
   }
   SortRefined();
@@ -526,7 +525,7 @@ void ForwardSelectionStep::Explain() {
     } else if (first >= 0) {
       candidate.why_not = "another fault explains more";
     } else if (!candidate.refined && candidate.ln_bayes_factor >= clear_evidence_) {
-      candidate.why_not = "it was not simulated: another fault promises more, and is none";
+      candidate.why_not = "it was not simulated: a fault that promised more was not accepted";
     } else {
       candidate.why_not = BelowClearEvidence(k);
     }

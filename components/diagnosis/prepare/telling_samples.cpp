@@ -12,11 +12,17 @@ namespace palpate::diagnosis {
 
 namespace {
 
+/// [actuators] how much of its way each is driven; NaN: it is not.
+Eigen::VectorXd DrivenShares(const Timeline& timeline, const Eigen::VectorXd& most,
+                             const Sample& sample) {
+  const double t_s = 0.5 * (sample.frame_t_s.front() + sample.frame_t_s.back());
+  return timeline.CommandAt(t_s).cwiseQuotient(most);
+}
+
 /// How much more of its way than the others in the mean an actuator is driven; NaN: it is not.
 double DrivenApart(const Timeline& timeline, const Eigen::VectorXd& most, const Sample& sample,
                    Eigen::Index actuator) {
-  const double t_s = 0.5 * (sample.frame_t_s.front() + sample.frame_t_s.back());
-  const Eigen::VectorXd share = timeline.CommandAt(t_s).cwiseQuotient(most);
+  const Eigen::VectorXd share = DrivenShares(timeline, most, sample);
   if (share.size() == 1) return share[0];
   const double sum = share.array().isNaN().select(0.0, share.array()).sum();
   return share[actuator] - (sum - share[actuator]) / static_cast<double>(share.size() - 1);
@@ -53,8 +59,7 @@ std::optional<std::size_t> LeastDriven(const ObservedExperiment& observed,
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];
     if (!SeesTheRobot(sample, in_frames)) continue;
-    const double t_s = 0.5 * (sample.frame_t_s.front() + sample.frame_t_s.back());
-    const Eigen::ArrayXd share = observed.timeline.CommandAt(t_s).cwiseQuotient(most);
+    const Eigen::ArrayXd share = DrivenShares(observed.timeline, most, sample);
     const double driven = share.isNaN().select(0.0, share).mean();
     if (!(driven < least)) continue;
     least = driven;
