@@ -256,7 +256,6 @@ void ForwardSelectionStep::ScreenFromTheNominal() {
     const auto here = std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& one) {
       return hypotheses.model(one.fault).name() == hypotheses.model(there.fault).name();
     });
-    there.from_nominal = true;
     if (here != candidates_.end() && here->ln_bayes_factor < there.ln_bayes_factor)
       *here = std::move(there);
   }
@@ -275,6 +274,8 @@ void ForwardSelectionStep::SimulateLikely(const LikelyFault& likely) {
     tried->starts = {k};
   }
   tried_ = fitter_.WithFaults(With(before_.faults, tried->fault), before_);
+  // There the tolerances are those of the robot file, far from their best.
+  if (tried_.status.ok()) tried_ = fitter_.Complete(fitter_.Refine(tried_.faults, tried_));
   if (!tried_.status.ok()) return;
   tried->ln_screened = tried_.posterior.ln_evidence - before_.posterior.ln_evidence;
   tried->ln_bayes_factor = tried->ln_screened;
@@ -366,21 +367,32 @@ void ForwardSelectionStep::CompleteTheBest(double least) {
   }
 }
 
-const Fit& ForwardSelectionStep::StartOf(const Candidate& candidate) const {
-  return candidate.from_nominal ? *nominal_ : before_;
+Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
+  Fit here = RefineFrom(before_, candidate);
+  if (nominal_ == nullptr || fitter_.IsOutOfTime()) return here;
+  // About either place the effect is another one, and so are the parts of samples: only complete
+  // fits compare.
+  Candidate from_there = *candidate;
+  Fit there = Completed(RefineFrom(*nominal_, &from_there), &from_there);
+  here = Completed(std::move(here), candidate);
+  const bool better = there.status.ok() && (!here.status.ok() || there.posterior.ln_evidence >
+                                                                     here.posterior.ln_evidence);
+  if (!better) return here;
+  candidate->fault = from_there.fault;
+  return there;
 }
 
-Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
+Fit ForwardSelectionStep::RefineFrom(const Fit& start, Candidate* candidate) const {
   if (candidate->starts.size() < 2) {
     const std::vector<int> faults = With(before_.faults, candidate->fault);
     const bool was_tried = tried_.status.ok() && tried_.faults == faults;
-    return fitter_.Refine(faults, was_tried ? tried_ : StartOf(*candidate));
+    return fitter_.Refine(faults, was_tried ? tried_ : start);
   }
   Fit best;
   for (const int fault : candidate->starts) {
     if (!best.faults.empty() && fitter_.IsOutOfTime()) break;
-    Fit fit = fitter_.Refine(With(before_.faults, fault), StartOf(*candidate),
-                             kSelectionTuning.rounds_to_compare, Detail::kMiddles);
+    Fit fit = fitter_.Refine(With(before_.faults, fault), start, kSelectionTuning.rounds_to_compare,
+                             Detail::kMiddles);
     const bool better = fit.status.ok() && (!best.status.ok() ||
                                             fit.posterior.ln_evidence > best.posterior.ln_evidence);
     if (!better && !best.faults.empty()) continue;
@@ -392,10 +404,14 @@ Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
   return fitter_.Refine(best.faults, best);
 }
 
+Fit ForwardSelectionStep::Completed(Fit fit, Candidate* candidate) const {
+  return AtTheBestPlace(fitter_, fitter_.Complete(std::move(fit)), &candidate->fault);
+}
+
 void ForwardSelectionStep::Complete(std::size_t k) {
   if (fits_[k].arrived) return;
   const double before = fits_[k].posterior.ln_evidence;
-  fits_[k] = AtTheBestPlace(fitter_, fitter_.Complete(std::move(fits_[k])), &candidates_[k].fault);
+  fits_[k] = Completed(std::move(fits_[k]), &candidates_[k]);
   const double now = fits_[k].posterior.ln_evidence;
   candidates_[k].ln_bayes_factor += fits_[k].status.ok() ? now - before : kImpossible;
   const double ln_gain = now - before_.posterior.ln_evidence - candidates_[k].ln_screened;

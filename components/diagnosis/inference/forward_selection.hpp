@@ -43,11 +43,10 @@ struct Candidate {
   double ln_bayes_factor = 0.0;  ///< against the faults named before; those of one name averaged
   double ln_screened = 0.0;      ///< the same of that one alone, before it was simulated
   double canonical_correlation =
-      0.0;                    ///< canonical correlation of its effect with that of the first named
-  bool from_nominal = false;  ///< the linear model of the nominal robot promises more
-  bool refined = false;       ///< simulated again where it fits best
-  std::string why_not = {};   ///< empty: named
-  bool ruled_out = false;     ///< where it fits best it is no fault, or more than any robot has
+      0.0;                   ///< canonical correlation of its effect with that of the first named
+  bool refined = false;      ///< simulated again where it fits best
+  std::string why_not = {};  ///< empty: named
+  bool ruled_out = false;    ///< where it fits best it is no fault, or more than any robot has
   std::vector<int> starts = {};  ///< faults of its name to simulate, the most probable first
 };
 
@@ -121,10 +120,12 @@ class ForwardSelectionStep {
   void PutSpecialCasesNext(std::size_t first, std::size_t end);
   /// The next ones that were not simulated before.
   void RefineTheBest();
-  /// The start that fits best after a few rounds becomes the candidate's fault, and goes on.
+  /// From `before`, and from the nominal robot where there is one; the better fit.
   Fit RefineFromItsStarts(Candidate* candidate) const;
-  const Fit& StartOf(const Candidate& candidate) const;
+  /// Of its starts the one that fits best after a few rounds becomes its fault, and goes on.
+  Fit RefineFrom(const Fit& start, Candidate* candidate) const;
   /// With what tolerances do where the fit is, and at the best of its places.
+  Fit Completed(Fit fit, Candidate* candidate) const;
   void Complete(std::size_t k);
   /// Those that may be the best once they are complete.
   void CompleteTheBest(double least);
