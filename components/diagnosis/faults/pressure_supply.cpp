@@ -47,7 +47,7 @@ class PressureGainFault final : public FaultModel {
   explicit PressureGainFault(const Supplied& at)
       : FaultModel(
             at.Named("pressure_gain"), "gain of the pressure sensor of chamber " + at.chamber.name,
-            {{.name = "g", .tolerance = 0.01, .fault = 0.15, .least = -0.9, .plausible = 0.5}}),
+            {{.name = "g", .tolerance = 0.01, .fault = 0.25, .least = -0.9, .plausible = 0.7}}),
         actuator_(at.actuator),
         chamber_(at.chamber.name) {}
 
@@ -120,7 +120,7 @@ class Leak final : public FaultModel {
  public:
   explicit Leak(const Supplied& at)
       : FaultModel(at.Named("leak"), "leak of chamber " + at.chamber.name,
-                   {{.name = "ratio", .fault = 0.25, .least = 0.0}}),
+                   {{.name = "ratio", .fault = 0.5, .least = 0.0}}),
         actuator_(at.actuator) {}
 
   bool OnActuators() const override { return true; }
