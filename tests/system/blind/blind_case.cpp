@@ -61,7 +61,7 @@ BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot, Mea
       break;
     case CaseKind::kOutside:
       add(first);
-      drawn.without = CoveredBy(menu[first].id);
+      drawn.without = CoveredBy(drawn.effects.back());
       drawn.without.insert(drawn.without.begin(), std::string(menu[first].id));
       break;
     case CaseKind::kCorrupted:

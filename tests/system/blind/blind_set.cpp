@@ -6,16 +6,24 @@
 #include <fmt/core.h>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <mutex>
 #include <random>
 
+#include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/names.hpp"
 #include "libs/core/text.hpp"
+#include "libs/robot/robot_description.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/system/blind/blind_case.hpp"
+#include "tests/system/blind/cause_menu.hpp"
 #include "tests/system/blind/coarse_robot.hpp"
 #include "tests/system/blind/score_table.hpp"
 #include "tests/system/blind/set_folder.hpp"
@@ -26,6 +34,7 @@ namespace palpate::blind {
 namespace {
 
 namespace fs = std::filesystem;
+using robot::RobotDescription;
 
 constexpr double kLargestSeed = 2e9;
 
@@ -68,6 +77,28 @@ void TakeRobot(const std::string& robot, BlindSet* set) {
   set->robot = robot;
 }
 
+/// How many cases of each cause; empty: causes are not chosen.
+std::map<std::string, int> WantedCauses(const BlindSet& set, const RobotDescription& diagnosed) {
+  std::map<std::string, int> wanted;
+  if (set.cause.empty()) return wanted;
+  if (set.kind && set.kind != CaseKind::kOneCause)
+    throw InputError("PALPATE_BLIND_CAUSE goes with PALPATE_BLIND_KIND='one cause' alone");
+  std::vector<std::string> names;
+  for (const MenuItem& item : MenuFor(diagnosed)) {
+    names.emplace_back(item.id);
+    if (set.cause == "each" || set.cause == item.id) wanted[names.back()] = set.cases;
+  }
+  if (wanted.empty())
+    throw InputError("PALPATE_BLIND_CAUSE: " + Unknown("cause", set.cause, names));
+  return wanted;
+}
+
+/// In brackets, which cases alone.
+std::string What(const BlindSet& set) {
+  if (!set.cause.empty()) return " (" + set.cause + ")";
+  return set.kind ? " (" + ToString(*set.kind) + ")" : "";
+}
+
 }  // namespace
 
 BlindSet BlindSet::FromEnvironment(int cases) {
@@ -83,34 +114,45 @@ BlindSet BlindSet::FromEnvironment(int cases) {
   if (const char* folder = std::getenv("PALPATE_BLIND_FOLDER")) set.folder = folder;
   if (const char* data = std::getenv("PALPATE_BLIND_DATA")) set.measured = ParseMeasured(data);
   if (const char* kind = std::getenv("PALPATE_BLIND_KIND")) set.kind = ParseKind(kind);
+  if (const char* cause = std::getenv("PALPATE_BLIND_CAUSE")) set.cause = cause;
   if (const char* robot = std::getenv("PALPATE_BLIND_ROBOT")) TakeRobot(robot, &set);
   return set;
 }
 
-std::vector<std::uint64_t> BlindSet::Seeds() const {
+std::vector<std::uint64_t> BlindSet::Seeds(const RobotDescription& diagnosed) const {
+  std::map<std::string, int> wanted = WantedCauses(*this, diagnosed);
+  const auto is_asked_for = [&](std::uint64_t next) {
+    if (kind && KindOf(next) != *kind) return false;
+    if (wanted.empty()) return true;
+    if (KindOf(next) != CaseKind::kOneCause) return false;
+    const auto hides = wanted.find(DrawCase(next, diagnosed, measured).effects.front().id);
+    return hides != wanted.end() && hides->second-- > 0;
+  };
+  const std::size_t count = At(cases) * std::max<std::size_t>(1, wanted.size());
   std::vector<std::uint64_t> seeds;
-  for (std::uint64_t next = seed; std::ssize(seeds) < cases; ++next) {
-    if (!kind || KindOf(next) == *kind) seeds.push_back(next);
+  for (std::uint64_t next = seed; seeds.size() < count; ++next) {
+    if (is_asked_for(next)) seeds.push_back(next);
   }
   return seeds;
 }
 
 std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
+  const SetFolder folder(set.folder);
+  const fs::path robot_file = IsCoarse(set.robot) ? WriteCoarseRobot(set.robot, folder.path())
+                                                  : test_support::RobotFile(set.robot);
+  const std::vector<std::uint64_t> seeds =
+      set.Seeds(robot::ReadRobotFile(robot_file, app::LoadYaml));
   fmt::print(out,
              "{} blind cases of {}{} of {} from seed {} on, {} moments each; one again: "
              "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
-             set.cases, set.robot, set.kind ? " (" + ToString(*set.kind) + ")" : "",
+             seeds.size(), set.robot, What(set),
              set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
-  const SetFolder folder(set.folder);
-  const CaseRunner runner({.robot_file = IsCoarse(set.robot)
-                                             ? WriteCoarseRobot(set.robot, folder.path())
-                                             : test_support::RobotFile(set.robot),
+  const CaseRunner runner({.robot_file = robot_file,
                            .folder = folder.path(),
                            .keep = folder.keeps(),
                            .measured = set.measured,
                            .samples = set.samples,
                            .minutes = set.minutes});
-  const std::vector<std::uint64_t> seeds = set.Seeds();
   std::vector<CaseRecord> records(seeds.size());
   std::mutex printing;
   TwoAtATime([&](std::size_t i) {

@@ -188,7 +188,7 @@ const std::vector<MenuItem>& ChamberMenu() {
   static const std::vector<MenuItem> menu = {
       {"leak",
        [](Random* r, R) -> Parameters {
-         return {{"ratio", Logarithmic(r, 0.25, 0.6)}};
+         return {{"ratio", Logarithmic(r, 0.4, 1.0)}};
        }},
       {"slow_valve",
        [](Random* r, R) -> Parameters {
@@ -202,12 +202,12 @@ const std::vector<MenuItem>& ChamberMenu() {
        }},
       {"pressure_gain",
        [](Random* r, R) -> Parameters {
-         return {{"g", Signed(r, 0.2, 0.35)}};
+         return {{"g", Signed(r, 0.3, 0.5)}};
        }},
       {"pressure_zero",
        [](Random* r, R robot) -> Parameters {
          const double limit_Pa = LeastOfLimits_Pa(robot);
-         return {{"zero_Pa", Signed(r, 0.04 * limit_Pa, 0.1 * limit_Pa)}};
+         return {{"zero_Pa", Signed(r, 0.06 * limit_Pa, 0.12 * limit_Pa)}};
        }},
       {"swapped_tubes", [](Random*, R) -> Parameters { return {}; }},
       {"thin_wall",
@@ -267,16 +267,17 @@ const std::vector<LeftOut>& LeftOutOfMenu() {
   return left_out;
 }
 
-std::vector<std::string> TwinsOf(std::string_view id) {
-  if (id == "cable_elasticity") return {"cable_cutting"};
+std::vector<std::string> TwinsOf(const scenario::ActiveEffect& effect) {
+  if (effect.id == "cable_elasticity") return {"cable_cutting"};
   // A leak takes a share of every pressure, as a sensor that reads too much does.
-  if (id == "leak") return {"pressure_gain"};
+  if (effect.id == "leak") return {"pressure_gain"};
+  if (effect.id == "pressure_gain" && effect.parameters.at("g") < 0.0) return {"leak"};
   return {};
 }
 
-std::vector<std::string> CoveredBy(std::string_view id) {
-  if (id == "payload") return {"permanent_force"};  // downwards, however the base is tilted
-  return TwinsOf(id);
+std::vector<std::string> CoveredBy(const scenario::ActiveEffect& effect) {
+  if (effect.id == "payload") return {"permanent_force"};  // downwards, however the base is tilted
+  return TwinsOf(effect);
 }
 
 }  // namespace palpate::blind

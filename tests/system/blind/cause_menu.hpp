@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libs/robot/robot_description.hpp"
+#include "libs/scenario/effect.hpp"
 #include "libs/scenario/random.hpp"
 
 namespace palpate::blind {
@@ -42,10 +43,10 @@ struct LeftOut {
 const std::vector<LeftOut>& LeftOutOfMenu();
 
 /// What else does exactly the same to this robot: either name is right.
-std::vector<std::string> TwinsOf(std::string_view id);
+std::vector<std::string> TwinsOf(const scenario::ActiveEffect& effect);
 
 /// Twins, and what it is a special case of, as a mass is of a force: these do all that it does, and
 /// whoever withholds it withholds them, too.
-std::vector<std::string> CoveredBy(std::string_view id);
+std::vector<std::string> CoveredBy(const scenario::ActiveEffect& effect);
 
 }  // namespace palpate::blind

@@ -90,7 +90,7 @@ bool SameName(const Suspect& a, const Suspect& b) { return a.id == b.id && a.whe
 }  // namespace
 
 bool Suspect::IsOfKind(const scenario::ActiveEffect& effect) const {
-  const std::vector<std::string> twins = TwinsOf(effect.id);
+  const std::vector<std::string> twins = TwinsOf(effect);
   return id == effect.id || std::find(twins.begin(), twins.end(), id) != twins.end();
 }
 

@@ -83,7 +83,7 @@ TEST_F(DiagnoseChambers, FindABlockedValve) {
 /// At rest a leak and a sensor that reads too much are the same.
 TEST_F(DiagnoseChambers, FindALeakOrWhatLooksTheSame) {
   Take("pneumatic_finger");
-  const nlohmann::json verdict = VerdictOn("{id: leak, where: chamber:bend, ratio: 0.3}");
+  const nlohmann::json verdict = VerdictOn("{id: leak, where: chamber:bend, ratio: 0.4}");
   ASSERT_FALSE(verdict["causes"].empty()) << verdict["reason"];
   EXPECT_THAT(verdict["causes"][0]["id"].get<std::string>(),
               testing::AnyOf("leak", "pressure_gain"));
@@ -92,8 +92,8 @@ TEST_F(DiagnoseChambers, FindALeakOrWhatLooksTheSame) {
 /// Of a sensor that reads too little: no leak has this effect.
 TEST_F(DiagnoseChambers, FindThePressureSensorsGain) {
   Take("pneumatic_finger");
-  ExpectWithin(Named("{id: pressure_gain, where: chamber:bend, g: 0.25}", "pressure_gain"), "g",
-               0.25);
+  ExpectWithin(Named("{id: pressure_gain, where: chamber:bend, g: 0.3}", "pressure_gain"), "g",
+               0.3);
 }
 
 TEST_F(DiagnoseChambers, FindThePressureSensorsZero) {
@@ -102,11 +102,10 @@ TEST_F(DiagnoseChambers, FindThePressureSensorsZero) {
                "zero_Pa", -2500.0);
 }
 
-/// What it does is far from linear, and a sensor's gain does much the same: 40 samples are called
-/// that (README of the component).
+/// What it does is far from linear, and a sensor's gain does much the same.
 TEST_F(DiagnoseChambers, FindAThinWall) {
   Take("pneumatic_finger");
-  ExpectWithin(Named("{id: thin_wall, where: chamber:bend, thinner_m: 0.001}", "thin_wall", "60"),
+  ExpectWithin(Named("{id: thin_wall, where: chamber:bend, thinner_m: 0.001}", "thin_wall"),
                "thinner_m", 0.001);
 }
 

@@ -4,9 +4,14 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <map>
+#include <string>
 
 #include "libs/core/error.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/system/blind/blind_case.hpp"
 #include "tests/system/blind/blind_set.hpp"
+#include "tests/system/blind/cause_menu.hpp"
 #include "tests/system/blind/rod_meshes.hpp"
 
 /// Which cases a set has.
@@ -22,10 +27,37 @@ struct KindFromEnvironment {
 };
 
 TEST(BlindSet, HasAllSeedsOrThoseOfItsKind) {
+  const robot::RobotDescription robot = test_support::ReadRobot("four_leg");
   BlindSet set{.cases = 4, .seed = 41};
-  EXPECT_THAT(set.Seeds(), testing::ElementsAre(41, 42, 43, 44));
+  EXPECT_THAT(set.Seeds(robot), testing::ElementsAre(41, 42, 43, 44));
   set.kind = CaseKind::kCorrupted;
-  EXPECT_THAT(set.Seeds(), testing::ElementsAre(50, 70, 90, 110));
+  EXPECT_THAT(set.Seeds(robot), testing::ElementsAre(50, 70, 90, 110));
+}
+
+TEST(BlindSet, HidesAsManyOfEveryCauseAsItIsAskedFor) {
+  const robot::RobotDescription robot = test_support::ReadRobot("pneumatic_finger");
+  std::map<std::string, int> hidden;
+  for (const std::uint64_t seed : BlindSet{.cases = 3, .cause = "each"}.Seeds(robot)) {
+    const BlindCase drawn = DrawCase(seed, robot);
+    ASSERT_EQ(drawn.effects.size(), 1U) << seed;
+    ++hidden[drawn.effects.front().id];
+  }
+  EXPECT_EQ(hidden.size(), MenuFor(robot).size());
+  for (const auto& [cause, count] : hidden) EXPECT_EQ(count, 3) << cause;
+  const BlindSet leaks{.cases = 4, .cause = "leak"};
+  for (const std::uint64_t seed : leaks.Seeds(robot))
+    EXPECT_EQ(DrawCase(seed, robot).effects.front().id, "leak") << seed;
+}
+
+TEST(BlindSet, RefusesACauseThatTheRobotCannotHave) {
+  const BlindSet set{.cases = 1, .cause = "leek"};
+  EXPECT_THAT([&] { set.Seeds(test_support::ReadRobot("pneumatic_finger")); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("did you mean 'leak'")));
+  EXPECT_THROW((BlindSet{.cases = 1, .cause = "leak"}.Seeds(test_support::ReadRobot("rod"))),
+               InputError);
+  EXPECT_THROW((BlindSet{.cases = 1, .kind = CaseKind::kHealthy, .cause = "leak"}.Seeds(
+                   test_support::ReadRobot("pneumatic_finger"))),
+               InputError);
 }
 
 TEST(BlindSet, TakesEachKindByTheNameThatItsCasesArePrintedWith) {
@@ -34,7 +66,8 @@ TEST(BlindSet, TakesEachKindByTheNameThatItsCasesArePrintedWith) {
     const KindFromEnvironment environment(ToString(kind).c_str());
     const BlindSet set = BlindSet::FromEnvironment(1);
     ASSERT_TRUE(set.kind.has_value()) << ToString(kind);
-    EXPECT_EQ(KindOf(set.Seeds().front()), kind) << ToString(kind);
+    EXPECT_EQ(KindOf(set.Seeds(test_support::ReadRobot("four_leg")).front()), kind)
+        << ToString(kind);
   }
 }
 
@@ -47,7 +80,8 @@ TEST(BlindSet, RefusesAKindThatThereIsNot) {
 
 TEST(BlindSet, HasRodsOnCoarserAndOnFinerMeshes) {
   int finer = 0;
-  for (const std::uint64_t seed : BlindSet{.cases = 12, .kind = CaseKind::kHealthy}.Seeds()) {
+  const BlindSet set{.cases = 12, .kind = CaseKind::kHealthy};
+  for (const std::uint64_t seed : set.Seeds(test_support::ReadRobot("rod"))) {
     const RodMeshes meshes = MeshesOfRod(seed);
     EXPECT_NE(meshes.body, meshes.diagnosed) << seed;
     finer += meshes.body == "rod.msh";
