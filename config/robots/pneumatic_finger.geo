@@ -18,15 +18,19 @@ DefineConstant[
   lid = {8, Name "Chamber/distance of its upper end from the tip"},
   ring_count = {8, Name "Rings/count"},
   ring_height = {3, Name "Rings/height"},
+  facets = {12, Name "Mesh/flat facets around the chamber, those of the sizes below"},
   cell_size = {7, Name "Mesh/size"}
 ];
+
+// The facets lie inside of the cylinder. So much wider it has the volume of a round chamber.
+drawn_radius = chamber_radius * Sqrt(2 * Pi / facets / Sin(2 * Pi / facets));
 
 bar = newv;
 Box(bar) = {-depth / 2 + layer, -width / 2, 0, depth - layer, width, height};
 stiff = newv;
 Box(stiff) = {-depth / 2, -width / 2, 0, layer, width, height};
 hollow = newv;
-Cylinder(hollow) = {chamber_offset, 0, root, 0, 0, height - root - lid, chamber_radius};
+Cylinder(hollow) = {chamber_offset, 0, root, 0, 0, height - root - lid, drawn_radius};
 rings() = {};
 pitch = (height - root - lid) / ring_count;
 For k In {0:ring_count - 1}
@@ -52,8 +56,8 @@ rest() -= Volume In BoundingBox {-depth / 2 - 0.1, -width, -1, -depth / 2 + laye
 Physical Volume("silicone") = {rest()};
 
 gap = 0.1;
-wall() = Surface In BoundingBox {chamber_offset - chamber_radius - gap, -chamber_radius - gap, root - gap,
-                                 chamber_offset + chamber_radius + gap, chamber_radius + gap,
+wall() = Surface In BoundingBox {chamber_offset - drawn_radius - gap, -drawn_radius - gap, root - gap,
+                                 chamber_offset + drawn_radius + gap, drawn_radius + gap,
                                  height - lid + gap};
 Physical Surface("chamber") = {wall()};
 
