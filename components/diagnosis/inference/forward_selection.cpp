@@ -226,6 +226,10 @@ bool ForwardSelectionStep::Search() {
     RefineTheBest();
     FindOneThatIsClear(cross_validation);
   }
+  if (nominal_ != nullptr && found_ < candidates_.size() && RefineThoseAtThePlaceOfTheFound()) {
+    found_ = candidates_.size();
+    FindOneThatIsClear(cross_validation);
+  }
   Explain();
   return found_ < candidates_.size();
 }
@@ -339,18 +343,41 @@ void ForwardSelectionStep::RefineTheBest() {
       last = candidate.ln_bayes_factor < best - kSelectionTuning.refined_within;
     }
     if (k > 0 && fitter_.IsOutOfTime()) break;
-    Fit fit = RefineFromItsStarts(&candidate);
-    const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
-    candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_screened : kImpossible;
-    candidate.refined = true;
-    // Where one gains on what was guessed of it, another may, too.
-    if (fit.status.ok()) LearnFrom(now - candidate.ln_screened, fit.ln_surprise);
+    Refine(k);
     best = std::max(best, std::min(candidate.ln_screened, candidate.ln_bayes_factor));
-    fits_.push_back(std::move(fit));
   }
   SortRefined();
   CompleteTheBest(least);
   SortRefined();
+}
+
+void ForwardSelectionStep::Refine(std::size_t k) {
+  Candidate& candidate = candidates_[k];
+  Fit fit = RefineFromItsStarts(&candidate);
+  const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
+  candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_screened : kImpossible;
+  candidate.refined = true;
+  // Where one gains on what was guessed of it, another may, too.
+  if (fit.status.ok()) LearnFrom(now - candidate.ln_screened, fit.ln_surprise);
+  fits_.push_back(std::move(fit));
+}
+
+bool ForwardSelectionStep::RefineThoseAtThePlaceOfTheFound() {
+  const HypothesisSet& hypotheses = fitter_.hypotheses();
+  const std::vector<std::string> where = hypotheses.model(candidates_[found_].fault).name().where;
+  // What restarts the search was tested before the fit.
+  const auto is_there = [&](const Candidate& one) {
+    const FaultModel& model = hypotheses.model(one.fault);
+    return model.name().where == where && !model.RestartsSearch();
+  };
+  const std::size_t first = fits_.size();
+  std::stable_partition(candidates_.begin() + ToIndex(first), candidates_.end(), is_there);
+  for (std::size_t k = first; k < candidates_.size() && is_there(candidates_[k]); ++k) {
+    if (fitter_.IsOutOfTime()) break;
+    Refine(k);
+  }
+  SortRefined();
+  return fits_.size() > first;
 }
 
 /// Out of time, only what may be named is completed (IsClear). A further fault that cannot reach

@@ -120,6 +120,11 @@ class ForwardSelectionStep {
   void PutSpecialCasesNext(std::size_t first, std::size_t end);
   /// The next ones that were not simulated before.
   void RefineTheBest();
+  /// Of the candidates, all before which were simulated, this one.
+  void Refine(std::size_t k);
+  /// Far from the nominal robot the linear model says little of what else the same actuator may
+  /// have. Whether there was any that had not been simulated.
+  bool RefineThoseAtThePlaceOfTheFound();
   /// From `before`, and from the nominal robot where there is one; the better fit.
   Fit RefineFromItsStarts(Candidate* candidate) const;
   /// Of its starts the one that fits best after a few rounds becomes its fault, and goes on.
