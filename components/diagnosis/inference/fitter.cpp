@@ -147,8 +147,10 @@ Fit Fitter::Complete(Fit fit) const {
   if (fit.status.ok()) fit = InAllDetail(std::move(fit));
   if (fit.status.ok()) fit = Continued(std::move(fit));
   // Parts of its samples stand for all as they did where the null model began, at the nominal
-  // robot. Far from there faults, which are simulated with all parts, would gain by that alone.
-  if (fit.status.ok() && fit.faults.empty() && IsStretched(fit)) {
+  // robot. Far from there faults, which are simulated with all parts, would gain by that alone:
+  // much where pressures drive the body, whose shapes are far from linear in them.
+  const bool by_pressure = !nominal_.body.chambers.empty();
+  if (by_pressure && fit.status.ok() && fit.faults.empty() && IsStretched(fit)) {
     Fit anew = Remeasured(fit);
     if (anew.status.ok()) fit = Continued(std::move(anew));
   }

@@ -226,7 +226,8 @@ bool ForwardSelectionStep::Search() {
     RefineTheBest();
     FindOneThatIsClear(cross_validation);
   }
-  if (nominal_ != nullptr && found_ < candidates_.size() && RefineThoseAtThePlaceOfTheFound()) {
+  if (nominal_ != nullptr && found_ < candidates_.size() && IsOfAChamber(candidates_[found_]) &&
+      RefineThoseAtThePlaceOfTheFound()) {
     found_ = candidates_.size();
     FindOneThatIsClear(cross_validation);
   }
@@ -260,6 +261,7 @@ void ForwardSelectionStep::ScreenFromTheNominal() {
     const auto here = std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& one) {
       return hypotheses.model(one.fault).name() == hypotheses.model(there.fault).name();
     });
+    there.from_nominal = true;
     if (here != candidates_.end() && here->ln_bayes_factor < there.ln_bayes_factor)
       *here = std::move(there);
   }
@@ -394,9 +396,16 @@ void ForwardSelectionStep::CompleteTheBest(double least) {
   }
 }
 
+bool ForwardSelectionStep::IsOfAChamber(const Candidate& candidate) const {
+  const std::vector<std::string>& where = fitter_.hypotheses().model(candidate.fault).name().where;
+  return std::any_of(where.begin(), where.end(),
+                     [](const std::string& one) { return one.starts_with("chamber:"); });
+}
+
 Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
+  if (!IsOfAChamber(*candidate) || nominal_ == nullptr || fitter_.IsOutOfTime())
+    return RefineFrom(candidate->from_nominal ? *nominal_ : before_, candidate);
   Fit here = RefineFrom(before_, candidate);
-  if (nominal_ == nullptr || fitter_.IsOutOfTime()) return here;
   // About either place the effect is another one, and so are the parts of samples: only complete
   // fits compare.
   Candidate from_there = *candidate;

@@ -43,10 +43,11 @@ struct Candidate {
   double ln_bayes_factor = 0.0;  ///< against the faults named before; those of one name averaged
   double ln_screened = 0.0;      ///< the same of that one alone, before it was simulated
   double canonical_correlation =
-      0.0;                   ///< canonical correlation of its effect with that of the first named
-  bool refined = false;      ///< simulated again where it fits best
-  std::string why_not = {};  ///< empty: named
-  bool ruled_out = false;    ///< where it fits best it is no fault, or more than any robot has
+      0.0;                    ///< canonical correlation of its effect with that of the first named
+  bool from_nominal = false;  ///< the linear model of the nominal robot promises more
+  bool refined = false;       ///< simulated again where it fits best
+  std::string why_not = {};   ///< empty: named
+  bool ruled_out = false;     ///< where it fits best it is no fault, or more than any robot has
   std::vector<int> starts = {};  ///< faults of its name to simulate, the most probable first
 };
 
@@ -125,7 +126,9 @@ class ForwardSelectionStep {
   /// Far from the nominal robot the linear model says little of what else the same actuator may
   /// have. Whether there was any that had not been simulated.
   bool RefineThoseAtThePlaceOfTheFound();
-  /// From `before`, and from the nominal robot where there is one; the better fit.
+  /// What is done to a chamber is far from linear in its pressure; what is done to a cable is not.
+  bool IsOfAChamber(const Candidate& candidate) const;
+  /// From where more is promised of it; of a chamber from both, the better fit.
   Fit RefineFromItsStarts(Candidate* candidate) const;
   /// Of its starts the one that fits best after a few rounds becomes its fault, and goes on.
   Fit RefineFrom(const Fit& start, Candidate* candidate) const;

@@ -62,7 +62,7 @@ TEST_F(SpecialCase, IsAlikeAsOtherCausesAreHoweverMuchTheirEffectsAreTheSame) {
 }
 
 TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) {
-  const Selection selection = Select(-0.021);
+  const Selection selection = Select(-0.018);
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   const double behind =
       LnBayesFactorOf("permanent_force", selection) - LnBayesFactorOf("payload", selection);
