@@ -126,10 +126,15 @@ TEST(Demo, AnInterruptEndsAllProcesses) {
     std::this_thread::yield();
   }
   ASSERT_THAT(ProgramsOfDomain(domain), testing::Not(testing::IsEmpty()));
-  // 1 without a force so far, 0 with one: the interrupt itself is no failure.
-  EXPECT_THAT(demo.Stop(), testing::AnyOf(0, 1));
+  const int code = demo.Stop();
   EXPECT_THAT(ProgramsOfDomain(domain), testing::SizeIs(0));
-  EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("[3/3] Result"));
+  // A busy machine may see a force before it is interrupted.
+  const std::string text = ReadFile(folder / "log");
+  const bool found_a_force = text.find("[3/3] Result") != std::string::npos &&
+                             text.find("no message arrived") == std::string::npos &&
+                             text.find("failed: no ") == std::string::npos;
+  EXPECT_EQ(code, found_a_force ? 0 : 1) << text;
+  EXPECT_THAT(text, testing::HasSubstr("[3/3] Result"));
 }
 
 }  // namespace

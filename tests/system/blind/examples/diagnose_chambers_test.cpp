@@ -80,6 +80,17 @@ TEST_F(DiagnoseChambers, FindABlockedValve) {
   EXPECT_EQ(valve["parameters"]["from_recording"]["value"], 3);
 }
 
+/// Nothing was driven before: from when on it is blocked is open.
+TEST_F(DiagnoseChambers, FindAValveThatIsBlockedFromTheBeginning) {
+  Take("pneumatic_finger");
+  const nlohmann::json valve =
+      Named("{id: blocked_valve, where: chamber:bend, from_recording: 1}", "blocked_valve");
+  ASSERT_TRUE(valve.contains("parameters"));
+  const nlohmann::json& ci95 = valve["parameters"]["from_recording"]["ci95"];
+  EXPECT_LE(ci95[0], 1);
+  EXPECT_GE(ci95[1], 1);
+}
+
 /// At rest a leak and a sensor that reads too much are the same.
 TEST_F(DiagnoseChambers, FindALeakOrWhatLooksTheSame) {
   Take("pneumatic_finger");
