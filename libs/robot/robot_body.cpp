@@ -28,11 +28,13 @@ namespace {
 constexpr double kCableReach_m = 0.020;
 constexpr double kCableReachOfDiagonal = 0.05;
 
-std::string Millimetres(double length_m) {
+std::string Rounded(double value, int digits) {
   std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.3g mm", length_m * 1e3);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
+
+std::string Millimetres(double length_m) { return Rounded(length_m * 1e3, 3) + " mm"; }
 
 /// Whether the surface is in the way in nearly all directions from a point outside the mesh.
 bool IsInHollow(const fem::PointLocator& locator, const Eigen::Vector3d& point_m) {
@@ -315,7 +317,7 @@ void PlaceChambers(const RobotDescription& robot, const fem::PointLocator& locat
     chamber.volume_m3 = fem::EnclosedVolume(chamber.wall).Volume_m3(rest_m);
     body->notes.push_back("chamber " + chamber.name + ": " +
                           std::to_string(chamber.wall.faces.cols()) + " faces around " +
-                          FormatNumber(1e6 * chamber.volume_m3) + " cm3");
+                          Rounded(1e6 * chamber.volume_m3, 4) + " cm3");
     body->chambers.push_back(std::move(chamber));
   }
 }

@@ -226,8 +226,11 @@ bool ForwardSelectionStep::Search() {
     RefineTheBest();
     FindOneThatIsClear(cross_validation);
   }
-  if (nominal_ != nullptr && found_ < candidates_.size() && IsOfAChamber(candidates_[found_]) &&
-      RefineThoseAtThePlaceOfTheFound()) {
+  const std::size_t best = found_ < candidates_.size() ? found_ : 0;
+  const bool is_open =
+      candidates_[best].ln_bayes_factor >= kSelectionTuning.indistinguishable_evidence;
+  if (nominal_ != nullptr && is_open && IsOfAChamber(candidates_[best]) &&
+      RefineThoseAtThePlaceOf(best)) {
     found_ = candidates_.size();
     FindOneThatIsClear(cross_validation);
   }
@@ -364,9 +367,9 @@ void ForwardSelectionStep::Refine(std::size_t k) {
   fits_.push_back(std::move(fit));
 }
 
-bool ForwardSelectionStep::RefineThoseAtThePlaceOfTheFound() {
+bool ForwardSelectionStep::RefineThoseAtThePlaceOf(std::size_t best) {
   const HypothesisSet& hypotheses = fitter_.hypotheses();
-  const std::vector<std::string> where = hypotheses.model(candidates_[found_].fault).name().where;
+  const std::vector<std::string> where = hypotheses.model(candidates_[best].fault).name().where;
   // What restarts the search was tested before the fit.
   const auto is_there = [&](const Candidate& one) {
     const FaultModel& model = hypotheses.model(one.fault);

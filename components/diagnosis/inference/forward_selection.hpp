@@ -124,8 +124,8 @@ class ForwardSelectionStep {
   /// Of the candidates, all before which were simulated, this one.
   void Refine(std::size_t k);
   /// Far from the nominal robot the linear model says little of what else the same actuator may
-  /// have. Whether there was any that had not been simulated.
-  bool RefineThoseAtThePlaceOfTheFound();
+  /// have as the `best` of the candidates. Whether there was any that had not been simulated.
+  bool RefineThoseAtThePlaceOf(std::size_t best);
   /// What is done to a chamber is far from linear in its pressure; what is done to a cable is not.
   bool IsOfAChamber(const Candidate& candidate) const;
   /// From where more is promised of it; of a chamber from both, the better fit.
