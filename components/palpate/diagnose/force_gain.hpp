@@ -12,11 +12,10 @@
 
 namespace palpate::command {
 
-/// Error of the sizes that markers give of the known loads of an experiment, whose places and
-/// directions are given: with the robot file, and with the extended files of
-/// `diagnosis`. The same frames count in both. Without forces where no recording has markers and
-/// known loads, or the files hold no cause. Ends early where `stop_requested`; data that cannot be
-/// estimated from are said in `why_not`.
+/// Error of the known loads of an experiment (EstimateKnownLoads): with the robot file, and with
+/// the extended files of `diagnosis`. The same frames count in both. Without forces where no
+/// recording has known loads that are measured, or the files hold no cause. Ends early where
+/// `stop_requested`; data that cannot be estimated from are said in `why_not`.
 diagnosis::ForceError MeasureForceError(const robot::RobotDescription& robot,
                                         const diagnosis::Diagnosis& diagnosis,
                                         const experiment::Experiment& experiment,

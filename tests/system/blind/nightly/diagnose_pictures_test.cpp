@@ -153,7 +153,10 @@ TEST_F(DiagnosePictures, AcquitsAHealthyRobotBeforeACameraThatErrs) {
 
 TEST_F(DiagnosePictures, NameASofterBody) {
   Make("{id: youngs_modulus, where: body, factor: 0.7}", 22);
-  ExpectFirst(Diagnose(), "youngs_modulus", "factor", 0.7, 0.04);
+  const Json verdict = Diagnose();
+  ExpectFirst(verdict, "youngs_modulus", "factor", 0.7, 0.04);
+  const Json& error_N = verdict["force_error_N_rms"];
+  EXPECT_LT(error_N["after"].get<double>(), 0.7 * error_N["before"].get<double>());
 }
 
 TEST_F(DiagnosePictures, NameADepthScale) {
