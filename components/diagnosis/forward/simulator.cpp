@@ -11,6 +11,7 @@
 #include <numeric>
 #include <thread>
 
+#include "components/diagnosis/forward/drive_distance.hpp"
 #include "components/diagnosis/forward/history.hpp"
 #include "components/diagnosis/forward/sample_differentiator.hpp"
 #include "components/diagnosis/forward/sample_in_parts.hpp"
@@ -20,7 +21,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Samples of the same recording follow each other and start from each other. [threads]
+/// Samples of the same recording follow each other, so that one is near the next. [threads]
 std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed,
                                              const std::vector<bool>& is_to_do, int threads) {
   std::vector<std::vector<std::size_t>> of_recording(observed.recordings.size());
@@ -38,6 +39,14 @@ std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed,
     least.insert(least.end(), samples.begin(), samples.end());
   }
   return shares;
+}
+
+/// The one of `from`, of which the last are preferred, that is nearest to where `to` begins.
+std::size_t Nearest(const DriveDistance& distance, const std::vector<std::size_t>& from,
+                    std::size_t to) {
+  return *std::min_element(from.rbegin(), from.rend(), [&](std::size_t a, std::size_t b) {
+    return distance.Between(a, to) < distance.Between(b, to);
+  });
 }
 
 void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
@@ -92,6 +101,7 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
                       const std::vector<bool>& is_to_do, Solvers* solvers,
                       Simulation* simulation) const {
   const auto shares = Shares(observed_, is_to_do, threads_);
+  const DriveDistance distance(observed_, parts);
   std::atomic<bool> failed = false;
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
     std::unique_ptr<SampleSolver>& kept = (*solvers)[At(&share - shares.data())];
@@ -100,12 +110,13 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
     if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
       simulation->at_rest = solver.Rest();
     }
-    const HeldShape* before = nullptr;
+    std::vector<std::size_t> balanced;
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
-      if (sample.middle.state.x_m.size() == 0 && before != nullptr) {
-        sample.middle.state = before->state;
-        sample.middle.obstacle_force_N = before->obstacle_force_N;
+      if (sample.middle.state.x_m.size() == 0 && !balanced.empty()) {
+        const HeldShape& nearest = simulation->samples[Nearest(distance, balanced, s)].middle;
+        sample.middle.state = nearest.state;
+        sample.middle.obstacle_force_N = nearest.obstacle_force_N;
       }
       if (failed && is_near) {
         sample.status = {StatusCode::kNotConverged, "another sample could not be simulated"};
@@ -117,7 +128,7 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
       SolveInParts(observed_.samples[s], parts[s], simulation->history_variables[s], detail,
                    &solver, &sample);
       if (sample.status.ok()) {
-        before = &sample.middle;
+        balanced.push_back(s);
       } else {
         failed = true;
       }

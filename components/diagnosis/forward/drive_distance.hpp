@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "components/diagnosis/data/observed_experiment.hpp"
+#include "components/diagnosis/forward/actuator_chain.hpp"
+
+namespace palpate::diagnosis {
+
+/// How far apart the postures of samples are, from what their actuators and their gravity say.
+class DriveDistance {
+ public:
+  /// `parts` [samples], of each at least one.
+  DriveDistance(const ObservedExperiment& observed,
+                const std::vector<std::vector<SamplePart>>& parts);
+
+  /// From the middle of the sample `from` to where `to` begins: 1 where one actuator is at the
+  /// other end of its range in the experiment, or the base is tilted by some 40 degrees more.
+  double Between(std::size_t from, std::size_t to) const {
+    return (middle_.col(static_cast<Eigen::Index>(from)) -
+            begin_.col(static_cast<Eigen::Index>(to)))
+        .norm();
+  }
+
+ private:
+  Eigen::MatrixXd begin_;   ///< [actuators and a rotation x samples]
+  Eigen::MatrixXd middle_;  ///< as begin_
+};
+
+}  // namespace palpate::diagnosis
