@@ -3,8 +3,6 @@
 
 #include "components/diagnosis/forward/drive_distance.hpp"
 
-#include "libs/core/index.hpp"
-
 namespace palpate::diagnosis {
 
 namespace {

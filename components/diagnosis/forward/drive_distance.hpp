@@ -9,6 +9,7 @@
 
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/forward/actuator_chain.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -21,10 +22,12 @@ class DriveDistance {
 
   /// From the middle of the sample `from` to where `to` begins: 1 where one actuator is at the
   /// other end of its range in the experiment, or the base is tilted by some 40 degrees more.
-  double Between(std::size_t from, std::size_t to) const {
-    return (middle_.col(static_cast<Eigen::Index>(from)) -
-            begin_.col(static_cast<Eigen::Index>(to)))
-        .norm();
+  double ToBegin(std::size_t from, std::size_t to) const {
+    return (middle_.col(ToIndex(from)) - begin_.col(ToIndex(to))).norm();
+  }
+  /// From middle to middle.
+  double Between(std::size_t a, std::size_t b) const {
+    return (middle_.col(ToIndex(a)) - middle_.col(ToIndex(b))).norm();
   }
 
  private:

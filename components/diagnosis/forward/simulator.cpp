@@ -15,6 +15,7 @@
 #include "components/diagnosis/forward/history.hpp"
 #include "components/diagnosis/forward/sample_differentiator.hpp"
 #include "components/diagnosis/forward/sample_in_parts.hpp"
+#include "components/diagnosis/forward/start_shapes.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
@@ -39,14 +40,6 @@ std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed,
     least.insert(least.end(), samples.begin(), samples.end());
   }
   return shares;
-}
-
-/// The one of `from`, of which the last are preferred, that is nearest to where `to` begins.
-std::size_t Nearest(const DriveDistance& distance, const std::vector<std::size_t>& from,
-                    std::size_t to) {
-  return *std::min_element(from.rbegin(), from.rend(), [&](std::size_t a, std::size_t b) {
-    return distance.Between(a, to) < distance.Between(b, to);
-  });
 }
 
 void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
@@ -110,14 +103,9 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
     if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
       simulation->at_rest = solver.Rest();
     }
-    std::vector<std::size_t> balanced;
+    StartShapes starts(distance);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
-      if (sample.middle.state.x_m.size() == 0 && !balanced.empty()) {
-        const HeldShape& nearest = simulation->samples[Nearest(distance, balanced, s)].middle;
-        sample.middle.state = nearest.state;
-        sample.middle.obstacle_force_N = nearest.obstacle_force_N;
-      }
       if (failed && is_near) {
         sample.status = {StatusCode::kNotConverged, "another sample could not be simulated"};
         sample.seen_m.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -125,10 +113,19 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
           sample.in_the_middle = solver.HistoryInputAt({}, sample);
         continue;
       }
-      SolveInParts(observed_.samples[s], parts[s], simulation->history_variables[s], detail,
-                   &solver, &sample);
+      const SimulatedSample was = sample;
+      const bool moved = starts.Begin(s, simulation->samples, &sample.middle);
+      const auto solve = [&] {
+        SolveInParts(observed_.samples[s], parts[s], simulation->history_variables[s], detail,
+                     &solver, &sample);
+      };
+      solve();
+      if (moved && !sample.status.ok()) {
+        sample = was;
+        solve();
+      }
       if (sample.status.ok()) {
-        balanced.push_back(s);
+        starts.Learn(s, was.middle.state.x_m, sample.middle);
       } else {
         failed = true;
       }

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "components/diagnosis/forward/drive_distance.hpp"
+#include "components/diagnosis/forward/simulation.hpp"
+
+namespace palpate::diagnosis {
+
+struct StartShapesTuning {
+  /// Of DriveDistance, over which samples move alike. Either way off, more iterations are needed.
+  double length = 0.5;
+  /// Variance of what all samples move by, in terms of what each moves by about that. Larger: far
+  /// samples tell more.
+  double alike = 0.1;
+  /// Variance of what one sample moves by otherwise. Larger: near samples tell less.
+  double own = 1e-4;
+};
+
+/// Where the balance of a sample is sought first, from the samples that came to balance before:
+/// only how many iterations it takes depends on that.
+class StartShapes {
+ public:
+  explicit StartShapes(const DriveDistance& distance, const StartShapesTuning& tuning = {})
+      : distance_(distance), tuning_(tuning) {}
+
+  /// Of a sample without a shape: that of the sample from which it is nearest. Of one that has the
+  /// shape of another robot: that, moved as the others have moved (Gaussian process regression over
+  /// their drive, Rasmussen and Williams 2006, eq. 2.23). False: it stays as it is.
+  bool Begin(std::size_t s, const std::vector<SimulatedSample>& samples, HeldShape* shape) const;
+
+  /// Sample `s` came to balance, which was sought first at `began_m`, empty: nowhere, before Begin.
+  void Learn(std::size_t s, const Eigen::VectorXd& began_m, const HeldShape& shape);
+
+ private:
+  double Covariance(std::size_t a, std::size_t b) const;
+  Eigen::VectorXd MovedBy_m(std::size_t s) const;
+
+  const DriveDistance& distance_;
+  StartShapesTuning tuning_;
+  std::vector<std::size_t> balanced_;
+  std::vector<std::size_t> moved_;
+  std::vector<Eigen::VectorXd> moved_m_;  ///< [moved_]
+};
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/forward/start_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace palpate::diagnosis {
+namespace {
+
+/// Two actuators, of which the second is not driven in all samples; each has one part.
+class StartShapesTest : public testing::Test {
+ protected:
+  void Add(double first_m, double second_m, const Eigen::Matrix3d& base_rotation) {
+    ObservedRecording recording;
+    recording.base_rotation = base_rotation;
+    observed_.recordings.push_back(recording);
+    Sample sample;
+    sample.recording = static_cast<int>(observed_.recordings.size()) - 1;
+    observed_.samples.push_back(sample);
+    SamplePart part;
+    part.taken_in = Eigen::Vector2d(first_m, second_m);
+    parts_.push_back({part});
+  }
+  void Add(double first_m, double second_m) { Add(first_m, second_m, Eigen::Matrix3d::Identity()); }
+
+  static Eigen::VectorXd ShapeAt_m(double first_m, double stiffness) {
+    const double bend_m = first_m / stiffness;
+    return Eigen::Vector3d(1.0 - 3.0 * bend_m * bend_m, bend_m, 0.1 * std::sin(20.0 * bend_m));
+  }
+
+  static SimulatedSample Balanced(double first_m, double stiffness) {
+    SimulatedSample sample;
+    sample.middle.state.x_m = ShapeAt_m(first_m, stiffness);
+    return sample;
+  }
+
+  ObservedExperiment observed_;
+  std::vector<std::vector<SamplePart>> parts_;
+};
+
+TEST_F(StartShapesTest, OfNoShapesThereIsNoStart) {
+  Add(0.0, 0.0);
+  const DriveDistance distance(observed_, parts_);
+  const StartShapes starts(distance);
+  HeldShape shape;
+  EXPECT_FALSE(starts.Begin(0, std::vector<SimulatedSample>(1), &shape));
+  shape.state.x_m = Eigen::Vector3d::Ones();
+  EXPECT_FALSE(starts.Begin(0, std::vector<SimulatedSample>(1), &shape));
+  EXPECT_TRUE(shape.state.x_m.isOnes(0.0));
+}
+
+/// Actuators count by their ranges, a tilt of the base as much as the half of one. What is not
+/// driven is at zero.
+TEST_F(StartShapesTest, IsThatOfTheNearestDrive) {
+  Add(0.0, 0.0);
+  Add(0.01, 0.0);
+  Add(0.0, 2.0);
+  Add(0.0, 0.0, Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix());
+  Add(0.006, std::numeric_limits<double>::quiet_NaN());
+  Add(0.0, 1.2);
+  const DriveDistance distance(observed_, parts_);
+  std::vector<SimulatedSample> samples(6);
+  StartShapes starts(distance);
+  for (std::size_t s = 0; s < 4; ++s) {
+    samples[s] = Balanced(static_cast<double>(s), 1.0);
+    starts.Learn(s, {}, samples[s].middle);
+  }
+  HeldShape shape;
+  ASSERT_TRUE(starts.Begin(4, samples, &shape));
+  EXPECT_EQ(shape.state.x_m, samples[1].middle.state.x_m);
+  shape.state.x_m.resize(0);
+  ASSERT_TRUE(starts.Begin(5, samples, &shape));
+  EXPECT_EQ(shape.state.x_m, samples[2].middle.state.x_m);
+}
+
+/// A body that is 10 % stiffer than the one that was simulated before.
+TEST_F(StartShapesTest, MovesAsTheOthersMoved) {
+  constexpr double kStiffer = 1.1;
+  std::vector<double> drive_m;
+  for (int k = 0; k <= 10; ++k) drive_m.push_back(0.01 * k);
+  drive_m.push_back(0.045);
+  for (const double first_m : drive_m) Add(first_m, 0.0);
+  const DriveDistance distance(observed_, parts_);
+  StartShapes starts(distance);
+  const std::size_t last = drive_m.size() - 1;
+  for (std::size_t s = 0; s < last; ++s)
+    starts.Learn(s, ShapeAt_m(drive_m[s], 1.0), Balanced(drive_m[s], kStiffer).middle);
+  HeldShape shape = Balanced(drive_m[last], 1.0).middle;
+  ASSERT_TRUE(starts.Begin(last, {}, &shape));
+  const Eigen::VectorXd truth_m = ShapeAt_m(drive_m[last], kStiffer);
+  const double change_m = (truth_m - ShapeAt_m(drive_m[last], 1.0)).norm();
+  EXPECT_LT((shape.state.x_m - truth_m).norm(), 0.02 * change_m);
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
