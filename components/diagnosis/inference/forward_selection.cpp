@@ -257,7 +257,9 @@ bool ForwardSelectionStep::IsSpecialCaseOf(std::size_t special, std::size_t k) c
 
 void ForwardSelectionStep::ScreenFromTheNominal() {
   const HypothesisSet& hypotheses = fitter_.hypotheses();
-  const double ln_behind = before_.posterior.ln_evidence - nominal_->posterior.ln_evidence;
+  // Where the null model does not keep what its linear model promises, no fault may profit by that.
+  const double ln_behind =
+      std::max(0.0, before_.posterior.ln_evidence - nominal_->posterior.ln_evidence);
   for (Candidate& there : Screen(fitter_, *nominal_, before_.faults)) {
     there.ln_bayes_factor -= ln_behind;
     there.ln_screened -= ln_behind;
