@@ -15,7 +15,11 @@ bool StartShapes::Begin(std::size_t s, const std::vector<SimulatedSample>& sampl
                         HeldShape* shape) const {
   if (shape->state.x_m.size() > 0) {
     if (moved_.empty()) return false;
-    shape->state.x_m += MovedBy_m(s);
+    const Eigen::VectorXd moved_by_m = MovedBy_m(s);
+    const auto nodes_m = shape->state.x_m.reshaped(3, shape->state.x_m.size() / 3);
+    const double diagonal_m = (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).norm();
+    if (moved_by_m.cwiseAbs().maxCoeff() < tuning_.least * diagonal_m) return false;
+    shape->state.x_m += moved_by_m;
     return true;
   }
   if (balanced_.empty()) return false;

@@ -20,6 +20,10 @@ struct StartShapesTuning {
   double alike = 0.1;
   /// Variance of what one sample moves by otherwise. Larger: near samples tell less.
   double own = 1e-4;
+  /// Of the body's diagonal: a node that moves by less is no reason to begin elsewhere. Robots that
+  /// differ by so little err alike then, so that their difference does not. Larger: more
+  /// iterations.
+  double least = 1e-3;
 };
 
 /// Where the balance of a sample is sought first, from the samples that came to balance before:

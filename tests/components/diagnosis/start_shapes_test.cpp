@@ -30,7 +30,9 @@ class StartShapesTest : public testing::Test {
 
   static Eigen::VectorXd ShapeAt_m(double first_m, double stiffness) {
     const double bend_m = first_m / stiffness;
-    return Eigen::Vector3d(1.0 - 3.0 * bend_m * bend_m, bend_m, 0.1 * std::sin(20.0 * bend_m));
+    Eigen::VectorXd nodes_m = Eigen::VectorXd::Zero(6);  // of which the first is held
+    nodes_m.tail<3>() << 1.0 - 3.0 * bend_m * bend_m, bend_m, 0.1 * std::sin(20.0 * bend_m);
+    return nodes_m;
   }
 
   static SimulatedSample Balanced(double first_m, double stiffness) {
@@ -49,7 +51,7 @@ TEST_F(StartShapesTest, OfNoShapesThereIsNoStart) {
   const StartShapes starts(distance);
   HeldShape shape;
   EXPECT_FALSE(starts.Begin(0, std::vector<SimulatedSample>(1), &shape));
-  shape.state.x_m = Eigen::Vector3d::Ones();
+  shape.state.x_m = Eigen::VectorXd::Ones(6);
   EXPECT_FALSE(starts.Begin(0, std::vector<SimulatedSample>(1), &shape));
   EXPECT_TRUE(shape.state.x_m.isOnes(0.0));
 }
@@ -95,6 +97,18 @@ TEST_F(StartShapesTest, MovesAsTheOthersMoved) {
   const Eigen::VectorXd truth_m = ShapeAt_m(drive_m[last], kStiffer);
   const double change_m = (truth_m - ShapeAt_m(drive_m[last], 1.0)).norm();
   EXPECT_LT((shape.state.x_m - truth_m).norm(), 0.02 * change_m);
+}
+
+/// Differences of robots that hardly differ would hold two errors of the balance instead of none.
+TEST_F(StartShapesTest, StaysWhereOthersHardlyMoved) {
+  Add(0.05, 0.0);
+  Add(0.06, 0.0);
+  const DriveDistance distance(observed_, parts_);
+  StartShapes starts(distance);
+  starts.Learn(0, ShapeAt_m(0.05, 1.0), Balanced(0.05, 1.001).middle);
+  HeldShape shape = Balanced(0.06, 1.0).middle;
+  EXPECT_FALSE(starts.Begin(1, {}, &shape));
+  EXPECT_EQ(shape.state.x_m, ShapeAt_m(0.06, 1.0));
 }
 
 }  // namespace
