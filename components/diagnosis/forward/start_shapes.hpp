@@ -23,7 +23,7 @@ struct StartShapesTuning {
   /// Of the body's diagonal: a node that moves by less is no reason to begin elsewhere. Robots that
   /// differ by so little err alike then, so that their difference does not. Larger: more
   /// iterations.
-  double least = 1e-3;
+  double least = 4e-4;
 };
 
 /// Where the balance of a sample is sought first, from the samples that came to balance before:
