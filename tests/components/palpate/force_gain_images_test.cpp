@@ -42,8 +42,7 @@ recordings:
     weights: [{t_s: 0.4, position_m: [0, 0, 0.125], mass_kg: 0.05, patch_radius_m: 0.008}]
 )";
 
-/// Markers are not needed: the camera finds the weight, and a modulus that is 43 % too large makes
-/// it so much heavier.
+/// Markers are not needed. With a modulus that is 43 % too large the weight feels so much heavier.
 TEST(ForceGain, IsMeasuredFromImages) {
   const TestFolder folder;
   SimulateOptions simulate;
