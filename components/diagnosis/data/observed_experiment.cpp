@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "components/diagnosis/data/average_frames.hpp"
 #include "components/diagnosis/data/pieces.hpp"
 #include "components/diagnosis/data/scatter.hpp"
 #include "libs/core/error.hpp"
@@ -123,19 +124,20 @@ Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>&
   return off_m;
 }
 
-/// Of a frame; those at which a load comes or goes belong to neither side.
+/// Frames at which a load comes or goes belong to neither side.
+bool LoadsChangeAt(const Recording& recording, double t_s) {
+  return std::any_of(recording.loads.begin(), recording.loads.end(), [&](const auto& load) {
+    return load.t_s == t_s && t_s > recording.loads.front().t_s;
+  });
+}
+
 bool IsInside(const Recording& recording, double t_s, const TimeWindow& window, bool first) {
-  bool turns = false;
-  for (const auto& load : recording.loads) {
-    turns = turns || (load.t_s == t_s && t_s > recording.loads.front().t_s);
-  }
-  return !turns && t_s <= window.end_s &&
+  return !LoadsChangeAt(recording, t_s) && t_s <= window.end_s &&
          (t_s > window.begin_s || (first && t_s >= window.begin_s));
 }
 
-std::vector<const MarkerFrame*> FramesIn(const Recording& recording, const TimeWindow& window,
-                                         bool first) {
-  std::vector<const MarkerFrame*> frames;
+MarkerFrames FramesIn(const Recording& recording, const TimeWindow& window, bool first) {
+  MarkerFrames frames;
   if (!recording.markers) return frames;
   for (const MarkerFrame& frame : recording.markers->frames) {
     if (IsInside(recording, frame.t_s, window, first)) frames.push_back(&frame);
@@ -143,28 +145,15 @@ std::vector<const MarkerFrame*> FramesIn(const Recording& recording, const TimeW
   return frames;
 }
 
-Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<int>& columns,
-               Eigen::Index markers) {
-  Sample sample;
-  sample.position_m = Eigen::Matrix3Xd::Zero(3, markers);
-  sample.count = Eigen::VectorXi::Zero(markers);
-  for (const MarkerFrame* frame : frames) {
-    sample.frame_t_s.push_back(frame->t_s);
-    sample.t_s += frame->t_s / static_cast<double>(frames.size());
-    for (Eigen::Index m = 0; m < markers; ++m) {
-      const int column = columns[At(m)];
-      if (column < 0) continue;
-      const auto& seen = frame->positions_m[At(column)];
-      if (!seen) continue;
-      sample.position_m.col(m) += *seen;
-      ++sample.count[m];
-    }
+/// All of a piece, also at its ends, which belong to those beside it.
+MarkerFrames FramesOfMotion(const Recording& recording, const Piece& piece) {
+  MarkerFrames frames;
+  if (piece.still || !recording.markers) return frames;
+  for (const MarkerFrame& frame : recording.markers->frames) {
+    const bool inside = frame.t_s >= piece.begin_s && frame.t_s <= piece.end_s;
+    if (inside && !LoadsChangeAt(recording, frame.t_s)) frames.push_back(&frame);
   }
-  for (Eigen::Index m = 0; m < markers; ++m) {
-    sample.position_m.col(m) /=
-        sample.count[m] > 0 ? sample.count[m] : std::numeric_limits<double>::quiet_NaN();
-  }
-  return sample;
+  return frames;
 }
 
 /// A few of those in a window: as many as a motion has parts (ActuatorChain::PartsAt).
@@ -198,7 +187,7 @@ class Sampler {
       : recording_(recording),
         index_(index),
         timeline_(observed.timeline),
-        marker_count_(std::ssize(observed.markers)) {
+        columns_(observed.markers.size(), -1) {
     const auto& seen = observed.recordings[At(index)];
     if (seen.T_camera_robot) depth_frames_ = DepthFramesOf(recording);
     if (!recording.markers) return;
@@ -215,6 +204,7 @@ class Sampler {
     bool first = true;
     for (const Piece& piece : PiecesOf(recording_, timeline_, span.begin_s, span.end_s)) {
       bool begins_piece = true;
+      const MarkerFrames of_motion = FramesOfMotion(recording_, piece);
       for (const TimeWindow& window : WindowsOf(piece, WindowCount(piece, cut))) {
         const bool is_first = std::exchange(first, false);
         const auto frames = FramesIn(recording_, window, is_first);
@@ -222,7 +212,7 @@ class Sampler {
             Few(recording_, depth_frames_, window, is_first);
         if (frames.empty() && depth_frames.empty()) continue;
         scatter->Add(frames);
-        Sample sample = Average(frames, columns_, marker_count_);
+        Sample sample = AverageFrames(frames, of_motion, columns_);
         if (frames.empty()) TakeStamps(depth_frames, &sample);
         if (reference_m_.size() > 0) sample.position_m -= reference_m_;
         sample.depth_frames = depth_frames;
@@ -242,8 +232,7 @@ class Sampler {
   const Recording& recording_;
   int index_;
   const Timeline& timeline_;
-  Eigen::Index marker_count_;
-  std::vector<int> columns_;  ///< empty: the recording has no markers
+  std::vector<int> columns_;  ///< [markers] -1: the recording does not have it
   Eigen::Matrix3Xd reference_m_;
   std::vector<DepthFrame> depth_frames_;
 };

@@ -94,20 +94,64 @@ TEST_F(ObserveTest, CutsWhereALoadComesAndLeavesOutThatMoment) {
 }
 
 TEST_F(ObserveTest, AveragesWhatWasSeen) {
-  // Marker 0 moves, marker 1 is seen in the first half of a second alone, marker 2 never.
-  Add({{0.0, {0.0}}, {4.0, {0.006}}}, [](double t_s, int marker) -> std::optional<Eigen::Vector3d> {
-    if (marker == 2 || (marker == 1 && t_s > 0.45)) return std::nullopt;
+  // Marker 1 is not seen in two frames inside the motion, marker 2 never, marker 3 at its end.
+  const auto seen_m = [](double t_s, int marker) -> std::optional<Eigen::Vector3d> {
+    const bool gap = marker == 1 && t_s > 0.15 && t_s < 0.35;
+    if (gap || marker == 2 || (marker == 3 && t_s > 3.85)) return std::nullopt;
     return Eigen::Vector3d(t_s, 2.0 * t_s, marker);
-  });
+  };
+  Add({{0.0, {0.0}}, {4.0, {0.006}}}, seen_m);
   const ObservedExperiment observed = Observed();
   ASSERT_EQ(observed.samples.size(), 4U);
   const Sample& first = observed.samples[0];
-  EXPECT_EQ(first.count, Eigen::Vector4i(11, 5, 0, 11));
+  EXPECT_EQ(first.count, Eigen::Vector4i(11, 9, 0, 11));
   EXPECT_TRUE(first.position_m.col(0).isApprox(Eigen::Vector3d(0.5, 1.0, 0.0), 1e-12));
-  EXPECT_NEAR(first.position_m(0, 1), 0.2, 1e-12);
+  EXPECT_TRUE(first.position_m.col(1).isApprox(Eigen::Vector3d(0.5, 1.0, 1.0), 1e-12))
+      << "the mean of all frames, as of marker 0, not of those that saw it";
   EXPECT_TRUE(first.position_m.col(2).array().isNaN().all());
-  EXPECT_EQ(observed.samples[1].count, Eigen::Vector4i(10, 0, 0, 10));
-  EXPECT_TRUE(observed.samples[1].position_m.col(1).array().isNaN().all());
+  const Sample& last = observed.samples[3];
+  EXPECT_EQ(last.count, Eigen::Vector4i(10, 10, 0, 0)) << "nothing tells where marker 3 went";
+  EXPECT_TRUE(last.position_m.col(3).array().isNaN().all());
+}
+
+/// A window of a motion may have two frames: one of them is not their middle.
+TEST_F(ObserveTest, AveragesOverBothFramesOfAFastMotion) {
+  const auto seen_m = [](double t_s, int marker) -> std::optional<Eigen::Vector3d> {
+    if (marker == 0 && std::abs(t_s - 0.1) < 0.01) return std::nullopt;
+    if (marker == 1 && t_s < 0.01) return std::nullopt;
+    return Eigen::Vector3d(t_s, 2.0 * t_s, marker);
+  };
+  Add({{0.0, {0.0}}, {0.4, {0.006}}}, seen_m);
+  const Sample first = Observed().samples[0];
+  ASSERT_EQ(first.frame_t_s.size(), 2U);
+  EXPECT_EQ(first.count, Eigen::Vector4i(1, 0, 2, 2));
+  EXPECT_NEAR(first.position_m(0, 0), 0.05, 1e-12);
+  EXPECT_TRUE(first.position_m.col(1).array().isNaN().all()) << "nothing was seen before it";
+}
+
+TEST_F(ObserveTest, MostFramesOfAMotionMustSeeAMarker) {
+  const auto seen_m = [](double t_s, int marker) -> std::optional<Eigen::Vector3d> {
+    if (marker == 0 && t_s > 0.15 && t_s < 1.95) return std::nullopt;
+    return Eigen::Vector3d(t_s, 0.0, marker);
+  };
+  Add({{0.0, {0.0}}, {4.0, {0.006}}}, seen_m);
+  const ObservedExperiment observed = Observed();
+  EXPECT_EQ(observed.samples[0].count[0], 0) << "2 of 11";
+  EXPECT_EQ(observed.samples[1].count[0], 0) << "1 of 10";
+  EXPECT_EQ(observed.samples[2].count[0], 10);
+}
+
+/// A body at rest is where it was, whenever it was seen.
+TEST_F(ObserveTest, InAHoldWhatWasSeenCounts) {
+  Add({{0.0, {0.003}}, {0.5, {0.003}}},
+      [](double t_s, int marker) -> std::optional<Eigen::Vector3d> {
+        if (marker == 0 && t_s > 0.15) return std::nullopt;
+        return Eigen::Vector3d(t_s, 0.0, marker);
+      });
+  const Sample first = Observed().samples[0];
+  EXPECT_TRUE(first.still);
+  EXPECT_EQ(first.count[0], 2);
+  EXPECT_NEAR(first.position_m(0, 0), 0.05, 1e-12);
 }
 
 TEST_F(ObserveTest, AReferenceWindowStandsForTheRestPositionsInTheFrameThatMeasured) {
