@@ -27,7 +27,7 @@ struct CameraFaults {
 
   std::vector<Move> moves;
   double depth_scale = 0.0;       ///< s: depth is (1 + s) times the true one, along the ray
-  double incidence_bias_m = 0.0;  ///< b of b (1/cos a - 1), along the ray
+  double incidence_bias_m = 0.0;  ///< b of b (1/cos a - 1), along the ray, cos a >= 0.25
   double flying_pixel_ratio = 0.0;
   double focal = 0.0;  ///< the true focal length is (1 + focal) times that of the data sheet
   double cx_px = 0.0;  ///< added to the data sheet's

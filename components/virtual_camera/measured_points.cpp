@@ -11,7 +11,7 @@ namespace palpate::virtual_camera {
 namespace {
 
 /// As in the images (kernels/depth_rows.inl).
-constexpr double kLeastCosine = 0.05;
+constexpr double kLeastCosine = 0.25;
 
 bool IsInPicture(const rgbd::CameraModel& camera, const Eigen::Vector2d& pixel_px) {
   return pixel_px.x() > -0.5 && pixel_px.x() < camera.width_px - 0.5 && pixel_px.y() > -0.5 &&

@@ -250,7 +250,9 @@ std::vector<EffectKind> CameraEffects() {
        camera,
        kCamera,
        {{"b_m", 0.0, 0.0, -0.05, 0.05}},
-       "depth of a surface seen at the angle a to its normal is too large by b (1 / cos a - 1)"},
+       "depth of a surface seen at the angle a to its normal is too large by b (1 / cos a - 1), "
+       "with "
+       "cos a at least 0.25"},
       {"intrinsics",
        camera,
        kCamera,

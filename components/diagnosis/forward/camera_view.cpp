@@ -10,8 +10,9 @@ namespace palpate::diagnosis {
 namespace {
 
 constexpr double kNearest_m = 1e-3;
-/// What is seen from farther aside counts as seen from there.
-constexpr double kLeastCosine = 0.05;
+/// Beyond 75 degrees depth sensors measure hardly anything. What is seen from farther aside counts
+/// as seen from there: 1/cos a would give one such marker all the weight.
+constexpr double kLeastCosine = 0.25;
 
 bool IsBefore(const SeenPoint& point) { return point.at_m.z() > kNearest_m; }
 

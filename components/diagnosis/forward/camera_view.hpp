@@ -19,7 +19,7 @@ struct DepthDrift {
 /// What a depth camera does wrong (docs/diagnosis.md).
 struct CameraErrors {
   double depth_scale = 0.0;       ///< depth is 1 + this times the true one
-  double incidence_bias_m = 0.0;  ///< b of b (1/cos a - 1) along the ray
+  double incidence_bias_m = 0.0;  ///< b of b (1/cos a - 1) along the ray, cos a >= 0.25
   double focal = 0.0;             ///< the true focal length is 1 + this times the assumed one
   double cx_px = 0.0;             ///< the true image centre less the assumed one
   double cy_px = 0.0;

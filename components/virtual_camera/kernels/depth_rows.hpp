@@ -34,7 +34,7 @@ struct DepthRow {
 /// What both kinds of camera do.
 struct CommonLaw {
   float offset_m;          ///< added to z
-  float incidence_bias_m;  ///< b of b (1/cos a - 1), along the ray
+  float incidence_bias_m;  ///< b of b (1/cos a - 1), along the ray, cos a >= 0.25
   float inverse_unit_1_m;  ///< depth steps per metre
   std::uint16_t invalid;
   float hole_ratio;    ///< of pixels along depth edges

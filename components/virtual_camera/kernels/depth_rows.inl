@@ -80,7 +80,7 @@ PALPATE_LANES Float SineOfTurns(Float t) {
 PALPATE_LANES Float WithBias(const DepthRow& row, const CommonLaw& law, int u, Float z) {
   Float biased = z * Load(row.gain + u) + law.offset_m;
   if (law.incidence_bias_m != 0.0F) {
-    const Float slant = 1.0F / Max(Load(row.cosine + u), Splat(0.05F)) - 1.0F;
+    const Float slant = 1.0F / Max(Load(row.cosine + u), Splat(0.25F)) - 1.0F;
     biased += law.incidence_bias_m * slant * Load(row.inverse_ray_length + u);
   }
   return biased;

@@ -59,6 +59,15 @@ TEST(CameraView, AnErrorOfDepthActsAlongTheRay) {
   EXPECT_LT(askew.cross(kAskew.at_m).norm(), 1e-15);
 }
 
+/// Else the error of b would be told by the marker that is seen most askew, or from behind.
+TEST(CameraView, AnErrorByIncidenceGrowsUpTo75DegreesOnly) {
+  for (const SeenPoint& point : {kGrazing, kBehind}) {
+    const Vector measured =
+        CameraView({.incidence_bias_m = 0.003}, kUnknown_px, 0.0).Measured(point);
+    EXPECT_NEAR((measured - point.at_m).norm(), 0.003 * (1.0 / 0.25 - 1.0), 1e-15);
+  }
+}
+
 TEST(CameraView, AnErrorOfTheLensLeavesDepthAsItIs) {
   // Seen at u = 420 (1 + 0.02) 0.11 / 0.41 + 3 from the assumed centre.
   const CameraView view({.focal = 0.02, .cx_px = 3.0, .cy_px = -5.0}, kFocal_px, 0.0);
