@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "components/calibration/cloud/cloud_frame.hpp"
@@ -12,6 +14,14 @@
 #include "components/calibration/joint/joint_request.hpp"
 
 namespace palpate::calibration {
+
+/// A depth camera beside the first that is calibrated with it.
+struct CloudCamera {
+  std::string name;
+  geometry::RigidTransform T_robot_camera_start;  ///< as of the first
+  std::optional<PosePrior> pose_prior = {};
+  bool fit_depth_bias = true;
+};
 
 struct CloudSettings {
   /// Parameters that are estimated beside the pose, by default actuator offsets. Its `pose` has no
@@ -26,7 +36,8 @@ struct CloudSettings {
   /// and are considered in the covariance. 0: no depth bias.
   double depth_bias_sigma = 0.003;
   geometry::DepthBiasBasis depth_bias = {};
-  bool fit_depth_bias = true;  ///< estimate it
+  bool fit_depth_bias = true;  ///< estimate that of the first camera
+  std::vector<CloudCamera> further_cameras = {};
   SurfaceErrorSettings surface_errors;
   PoseSearchSettings search;
   /// Spacing of the points that are used, m: in the search, and in the joint fit. Depth noise is
@@ -64,24 +75,25 @@ struct CloudMatch {
 };
 
 struct CloudCalibration {
-  /// kInvalidInput: no frames, numbers that are not finite, sigmas <= 0, another number of cables,
-  /// or another robot. kNoRobotSeen: too few points. kUnobservable: the clouds do not determine the
-  /// pose. kNotConverged: no pose near the initial one explains the clouds, or max_rounds.
-  /// Otherwise the status of a failed equilibrium.
+  /// kInvalidInput: no frames, numbers that are not finite, sigmas <= 0, another number of cables
+  /// or of cameras, or another robot. kNoRobotSeen: too few points, or a camera without a cloud.
+  /// kUnobservable: the clouds do not determine a pose. kNotConverged: no pose near the initial one
+  /// explains the clouds, or max_rounds. Otherwise the status of a failed equilibrium.
   Status status;
   /// Valid where `status` is ok. Its frames are those of the clouds, then the marker frames.
   JointCalibration joint;
-  std::vector<CloudMatch> matches;                ///< [frames]
-  geometry::RigidTransform rigid_T_robot_camera;  ///< of the search with fixed shapes
-  int starts = 0;                                 ///< of the search
+  std::vector<CloudMatch> matches;  ///< [frames] of the first camera; no points: it sees no robot
+  std::vector<std::vector<CloudMatch>> further_matches;  ///< [further cameras] the same
+  geometry::RigidTransform rigid_T_robot_camera;  ///< of the first, by the search with fixed shapes
+  int starts = 0;                                 ///< of that search
   int rounds = 0;                                 ///< of matching and fit
 };
 
-/// Camera pose and the parameters of `settings.request` from clouds of the robot without markers:
-/// first the pose with shapes fixed at the equilibria under the measured inputs (SearchPose), then
-/// all parameters (CalibrateJointly) on points matched to the visible surface. Matching and fit
-/// repeat until the camera rests. The error of a point along the normal combines its depth noise
-/// and the facets.
+/// Poses of all cameras and the parameters of `settings.request` from clouds of the robot without
+/// markers: first each pose with shapes fixed at the equilibria under the measured inputs
+/// (SearchPose), then all parameters (CalibrateJointly) on points matched to the visible surface.
+/// Matching and fit repeat until the cameras rest. The error of a point along the normal combines
+/// its depth noise and the facets.
 ///
 /// Initial poses may be off by 50 mm and 20 degrees at the robot. For a symmetric robot
 /// (config/robots/four_leg.yaml nearly is, by quarter turns) only the initial pose decides, and it
@@ -91,5 +103,15 @@ CloudCalibration CalibrateFromClouds(robot::RobotModel& model,
                                      const std::vector<CloudFrame>& frames,
                                      const geometry::RigidTransform& T_robot_camera_start,
                                      const CloudSettings& settings = {});
+
+/// Whether such a fit is one of the robot. Noise, the facets of the mesh and a sound model's errors
+/// leave a chi-squared below the degrees of freedom. Twice these errors are another body than the
+/// model's: the pose is fitted to that, too.
+bool IsPossible(const JointCalibration& fit);
+
+/// Whether a fit of all cameras is of the robot that the `first` of them shows: chi-squared per
+/// degree of freedom is at most twice that of its own fit. Otherwise a camera or the robot moved,
+/// or clocks differ.
+bool AgreesWith(const JointCalibration& first, const JointCalibration& all);
 
 }  // namespace palpate::calibration

@@ -62,9 +62,8 @@ Status Invalid(const CloudFrame& frame, const std::string& what) {
   return {StatusCode::kInvalidInput, frame.name + ": " + what};
 }
 
-Status CheckCloud(const robot::RobotModel& model, const CloudFrame& frame,
+Status CheckCloud(const CloudFrame& frame, const rgbd::SensedCloud& cloud,
                   const CloudSettings& settings) {
-  const rgbd::SensedCloud& cloud = frame.cloud;
   if (cloud.sigma_m.size() != cloud.Count()) {
     return Invalid(frame, std::to_string(cloud.sigma_m.size()) + " sigmas for " +
                               std::to_string(cloud.Count()) + " points");
@@ -79,14 +78,50 @@ Status CheckCloud(const robot::RobotModel& model, const CloudFrame& frame,
                          "is not above 0");
     }
   }
-  if (static_cast<int>(frame.cables.size()) != model.ActuatorCount()) {
-    return Invalid(frame, std::to_string(frame.cables.size()) + " inputs, the robot has " +
-                              std::to_string(model.ActuatorCount()) + " actuators");
-  }
   if (cloud.Count() < settings.least_points) {
     return {StatusCode::kNoRobotSeen, frame.name + ": " + std::to_string(cloud.Count()) +
                                           " points, fewer than " +
                                           std::to_string(settings.least_points)};
+  }
+  return Status::Ok();
+}
+
+Status CheckFrame(const robot::RobotModel& model, const CloudFrame& frame,
+                  const CloudSettings& settings) {
+  if (static_cast<int>(frame.cables.size()) != model.ActuatorCount()) {
+    return Invalid(frame, std::to_string(frame.cables.size()) + " inputs, the robot has " +
+                              std::to_string(model.ActuatorCount()) + " actuators");
+  }
+  const std::size_t cameras = settings.further_cameras.size();
+  if (!frame.further.empty() && frame.further.size() != cameras) {
+    return Invalid(frame, "clouds of " + std::to_string(frame.further.size()) +
+                              " further cameras, the settings have " + std::to_string(cameras));
+  }
+  std::vector<const rgbd::SensedCloud*> clouds;
+  if (frame.cloud.Count() > 0) clouds.push_back(&frame.cloud);
+  for (const rgbd::SensedCloud& cloud : frame.further) {
+    if (cloud.Count() > 0) clouds.push_back(&cloud);
+  }
+  if (clouds.empty()) return CheckCloud(frame, frame.cloud, settings);
+  for (const rgbd::SensedCloud* cloud : clouds) {
+    if (Status status = CheckCloud(frame, *cloud, settings); !status.ok()) return status;
+  }
+  return Status::Ok();
+}
+
+/// Whether each camera sees the robot in a frame.
+Status CheckCameras(const std::vector<CloudFrame>& frames, const CloudSettings& settings) {
+  const auto see = [&](const auto& sees) {
+    return std::any_of(frames.begin(), frames.end(), sees);
+  };
+  if (!see([](const CloudFrame& frame) { return frame.cloud.Count() > 0; }))
+    return {StatusCode::kNoRobotSeen, "the first camera sees the robot in no frame"};
+  for (std::size_t k = 0; k < settings.further_cameras.size(); ++k) {
+    if (!see([k](const CloudFrame& frame) {
+          return !frame.further.empty() && frame.further[k].Count() > 0;
+        }))
+      return {StatusCode::kNoRobotSeen,
+              "camera '" + settings.further_cameras[k].name + "' sees the robot in no frame"};
   }
   return Status::Ok();
 }
@@ -97,9 +132,9 @@ Status CheckClouds(const robot::RobotModel& model, const std::vector<CloudFrame>
                    const CloudSettings& settings) {
   if (frames.empty()) return {StatusCode::kInvalidInput, "no cloud was given"};
   for (const CloudFrame& frame : frames) {
-    if (Status status = CheckCloud(model, frame, settings); !status.ok()) return status;
+    if (Status status = CheckFrame(model, frame, settings); !status.ok()) return status;
   }
-  return Status::Ok();
+  return CheckCameras(frames, settings);
 }
 
 std::vector<SurfaceSighting> MatchCloud(const SurfaceInView& surface, const ThinCloud& cloud,

@@ -21,9 +21,11 @@ struct SharedError {
   double per_unit_m = 0.0;
 };
 
-/// A point of the depth image, matched with a point of the model's surface.
+/// A point of a depth image, matched with a point of the model's surface.
 struct SurfaceSighting {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< camera frame
+  /// 0: that of the frame; k: JointSetup::further_cameras[k - 1].
+  int camera = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< frame of that camera
   double sigma_m = 0.0;                                  ///< along the normal, > 0
   fem::InterpolationWeights point;                       ///< on the surface
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, robot frame, at that point
@@ -34,7 +36,7 @@ struct SurfaceSighting {
 /// inputs are the initial values of unknown ones.
 struct CalibrationFrame {
   std::string name;   ///< for messages
-  int own_pose = -1;  ///< index into JointSetup::own_poses; -1: seen from the camera to calibrate
+  int own_pose = -1;  ///< index into JointSetup::own_poses; -1: seen from the first camera
   std::vector<MarkerSighting> markers = {};
   bool by_depth_camera = true;  ///< the markers have the depth bias
   std::vector<SurfaceSighting> surface = {};

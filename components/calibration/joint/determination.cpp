@@ -44,10 +44,11 @@ bool IsOfPose(int variable, const JointProblem& problem) {
   return problem.variables()[At(variable)].of_pose;
 }
 
-bool IsOfDepthBias(int variable, const JointProblem& problem) {
-  const int first = problem.depth_bias_column();
-  if (first < 0) return false;
-  return variable >= first && variable < first + geometry::CountOf(problem.depth_bias()->basis);
+bool EstimatesAnyDepthBias(const JointProblem& problem) {
+  for (int camera = 0; camera < problem.CameraCount(); ++camera) {
+    if (problem.EstimatesDepthBias(camera)) return true;
+  }
+  return false;
 }
 
 /// Additional variances of `free` by the considered variables.
@@ -86,13 +87,14 @@ std::optional<UndeterminedVariable> MostUndetermined(const LeastSquaresPoint& po
     }
     if (worst) return UndeterminedVariable{*worst, worst_sigma};
   }
-  if (!problem.depth_bias() || !problem.depth_bias()->estimated) return std::nullopt;
+  if (!EstimatesAnyDepthBias(problem)) return std::nullopt;
   const Eigen::VectorXd total =
       variance + ShiftVariance(point.jacobian.topRows(problem.DataRows()), inverse, free, problem);
   double worst_total = 1.0;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const double of_this = total[ToIndex(k)];
-    if (!IsOfDepthBias(free[k], problem) || of_this <= worst_total) continue;
+    const bool of_bias = problem.variables()[At(free[k])].of_depth_bias;
+    if (!of_bias || of_this <= worst_total) continue;
     worst = free[k];
     worst_total = of_this;
   }

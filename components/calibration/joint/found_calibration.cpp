@@ -76,14 +76,14 @@ robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
 
 namespace {
 
-void TakePose(const JointCalibration& fit, robot::CalibrationFile* file) {
+robot::CalibratedPose PoseOf(const FittedCamera& fit) {
   robot::CalibratedPose pose;
   pose.T_robot_camera =
       Eigen::Translation3d(fit.T_robot_camera.translation_m()) * fit.T_robot_camera.rotation();
   const Eigen::Matrix<double, 6, 1> errors = fit.pose_covariance.diagonal().cwiseSqrt();
   pose.rotation_error_rad = errors.head<3>();
   pose.translation_error_m = errors.tail<3>();
-  file->pose = pose;
+  return pose;
 }
 
 void TakeActuators(const JointCalibration& fit, const robot::RobotModel& model,
@@ -193,7 +193,7 @@ void TakeGeometry(const JointCalibration& fit, const robot::RobotBody& body,
 
 void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
              robot::CalibrationFile* file) {
-  if (!fit.pose_covariance.isZero()) TakePose(fit, file);
+  if (!fit.pose_covariance.isZero()) file->pose = PoseOf(fit);
   TakeActuators(fit, model, file);
   TakePressureSensors(fit, model, file);
   TakeMaterials(fit, PartNames(model.body()), file);
@@ -213,6 +213,14 @@ void TakeDepthBias(const JointCalibration& fit, const geometry::DepthPicture& pi
                    robot::CalibrationFile* file) {
   if (!fit.depth_bias || !file->pose) return;
   file->depth_bias = robot::CalibratedDepthBias{picture, *fit.depth_bias};
+}
+
+robot::CalibratedCamera CameraOf(const std::string& name, const FittedCamera& fit,
+                                 const std::optional<geometry::DepthPicture>& picture) {
+  robot::CalibratedCamera camera{.name = name, .pose = PoseOf(fit), .depth_bias = {}};
+  if (picture && fit.depth_bias)
+    camera.depth_bias = robot::CalibratedDepthBias{*picture, *fit.depth_bias};
+  return camera;
 }
 
 }  // namespace palpate::calibration

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,10 @@ void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
 /// belongs to.
 void TakeDepthBias(const JointCalibration& fit, const geometry::DepthPicture& picture,
                    robot::CalibrationFile* file);
+
+/// What a calibration file says of a camera beside the first. `picture`: size and lens of its
+/// images; nullopt: without depth bias.
+robot::CalibratedCamera CameraOf(const std::string& name, const FittedCamera& fit,
+                                 const std::optional<geometry::DepthPicture>& picture);
 
 }  // namespace palpate::calibration

@@ -139,26 +139,42 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
 }
 
 /// `covariance`: against the truth; `against_model`: against this model.
-void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& solution,
-                     const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& against_model,
-                     JointCalibration* result) {
-  if (!problem.depth_bias() || !problem.depth_bias()->estimated) return;
-  geometry::DepthBiasMap& map = result->depth_bias.emplace();
-  map.basis = problem.depth_bias()->basis;
-  const int count = geometry::CountOf(map.basis);
-  map.coefficients.resize(count);
+FittedCamera CameraOf(const JointProblem& problem, int camera, const Eigen::VectorXd& variables,
+                      const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& against_model) {
+  FittedCamera found{.T_robot_camera = problem.PoseAt(variables, camera)};
+  const bool biased = problem.EstimatesDepthBias(camera);
+  const int count = biased ? geometry::CountOf(problem.depth_bias(camera)->basis) : 0;
   Eigen::MatrixXd per_variable = Eigen::MatrixXd::Zero(6 + count, covariance.cols());
-  for (int i = 0; i < 6 && problem.pose_column() >= 0; ++i) {
-    const int v = problem.pose_column() + i;
+  for (int i = 0; i < 6 && problem.pose_column(camera) >= 0; ++i) {
+    const int v = problem.pose_column(camera) + i;
     per_variable(i, v) = problem.Scale(v);
   }
+  Eigen::VectorXd coefficients(count);
   for (int k = 0; k < count; ++k) {
-    const int v = problem.depth_bias_column() + k;
-    map.coefficients[k] = problem.ValueOf(v, solution.variables);
+    const int v = problem.depth_bias_column(camera) + k;
+    coefficients[k] = problem.ValueOf(v, variables);
     per_variable(6 + k, v) = problem.Scale(v);
   }
+  const Eigen::MatrixXd both = per_variable * covariance * per_variable.transpose();
+  found.pose_covariance = both.topLeftCorner<6, 6>();
+  if (!biased) return found;
+  found.pose_and_bias_covariance = both;
+  geometry::DepthBiasMap& map = found.depth_bias.emplace();
+  map.basis = problem.depth_bias(camera)->basis;
+  map.coefficients = coefficients;
   map.covariance = per_variable * against_model * per_variable.transpose();
-  result->pose_and_bias_covariance = per_variable * covariance * per_variable.transpose();
+  return found;
+}
+
+void ReportCameras(const JointProblem& problem, const Eigen::VectorXd& variables,
+                   const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& against_model,
+                   JointCalibration* result) {
+  const auto of = [&](int camera) {
+    return CameraOf(problem, camera, variables, covariance, against_model);
+  };
+  static_cast<FittedCamera&>(*result) = of(0);
+  for (int camera = 1; camera < problem.CameraCount(); ++camera)
+    result->further_cameras.push_back(of(camera));
 }
 
 /// Objective and residual of each iteration. The lifted method ends where Ipopt starts.
@@ -189,18 +205,10 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   result->degrees_of_freedom = DegreesOfFreedom(problem);
   const double widened = WidenedBy(fit, result->degrees_of_freedom);
   const Eigen::MatrixXd covariance = CovarianceOf(fit, problem, widened);
-  result->T_robot_camera = problem.PoseAt(solution.variables);
+  ReportCameras(problem, solution.variables, covariance,
+                CovarianceOf(fit, problem, widened, Against::kThisModel), result);
   result->adjusted_poses = problem.AdjustedPosesAt(solution.variables);
   result->x_m = problem.ShapesAt(solution.variables);
-  if (problem.pose_column() >= 0) {
-    Eigen::Matrix<double, 6, 1> scale;
-    for (int i = 0; i < 6; ++i) scale[i] = problem.Scale(problem.pose_column() + i);
-    result->pose_covariance = scale.asDiagonal() *
-                              covariance.block<6, 6>(problem.pose_column(), problem.pose_column()) *
-                              scale.asDiagonal();
-  }
-  ReportDepthBias(problem, solution, covariance,
-                  CovarianceOf(fit, problem, widened, Against::kThisModel), result);
   ReportValues(problem, solution, covariance, settings, result);
 }
 

@@ -38,16 +38,22 @@ struct FittedValue {
   std::string what_would_tell;  ///< the recording that would determine it; determined: empty
 };
 
-struct JointCalibration {
-  Status status;
+/// What is estimated of a camera.
+struct FittedCamera {
   geometry::RigidTransform T_robot_camera;
   /// Of PoseChange at the estimated pose (rad, m); 0 where the pose was given.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  std::vector<AdjustedPose> adjusted_poses;  ///< those with a prior, that to calibrate first
-  std::vector<FittedValue> values;           ///< without the pose; unknowns in their order, last
   /// Where it was estimated; its covariance is that against this model (DepthBiasMap).
-  std::optional<geometry::DepthBiasMap> depth_bias;
-  Eigen::MatrixXd pose_and_bias_covariance;  ///< [6 + k square] the same against the truth
+  std::optional<geometry::DepthBiasMap> depth_bias = {};
+  Eigen::MatrixXd pose_and_bias_covariance = {};  ///< [6 + k square] the same against the truth
+};
+
+/// Of the robot and the first camera.
+struct JointCalibration : FittedCamera {
+  Status status;
+  std::vector<FittedCamera> further_cameras;  ///< [JointSetup::further_cameras]
+  std::vector<AdjustedPose> adjusted_poses;  ///< those with a prior, that of the first camera first
+  std::vector<FittedValue> values;           ///< without the poses; unknowns in their order, last
   /// [values] of their errors; 0 for held ones without a prior.
   Eigen::MatrixXd correlation;
   double residual_rms_m = 0.0;  ///< of all frames

@@ -42,21 +42,16 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
 
 /// Returns the column of the first unknown.
 int JointProblem::AddVariables() {
+  CameraColumns& first = camera_columns_.emplace_back();
   if (setup_.fit_pose) {
     const PosePrior* prior = setup_.pose_prior ? &*setup_.pose_prior : nullptr;
-    pose_column_ = AddPoseVariables("camera", setup_.T_robot_camera, prior);
+    first.pose = AddPoseVariables("camera", setup_.T_robot_camera, prior);
   }
   for (const PosePrior& pose : setup_.own_poses) {
     own_pose_columns_.push_back(AddPoseVariables(pose.name, pose.T_robot_camera, &pose));
   }
-  if (setup_.depth_bias) {
-    depth_bias_column_ = static_cast<int>(variables_.size());
-    for (const std::string& name : geometry::NamesOf(setup_.depth_bias->basis)) {
-      variables_.push_back({name, "", setup_.depth_bias->coefficient,
-                            "recordings of the robot at several distances, all over the image",
-                            nullptr, !setup_.depth_bias->estimated});
-    }
-  }
+  if (setup_.depth_bias) first.depth_bias = AddDepthBias(*setup_.depth_bias, "");
+  AddFurtherCameras();
   if (setup_.marker_offset_sigma_m > 0.0) AddMarkerOffsets();
   shared_error_column_ = static_cast<int>(variables_.size());
   for (const bool models_own : setup_.shared_errors) {
@@ -72,6 +67,30 @@ int JointProblem::AddVariables() {
                           unknown->what_would_tell(), unknown.get()});
   }
   return first_unknown;
+}
+
+void JointProblem::AddFurtherCameras() {
+  for (const FurtherCamera& camera : setup_.further_cameras) {
+    CameraColumns columns;
+    columns.pose = AddPoseVariables("camera:" + camera.name, camera.T_robot_camera,
+                                    camera.pose_prior ? &*camera.pose_prior : nullptr);
+    if (camera.depth_bias) columns.depth_bias = AddDepthBias(*camera.depth_bias, ":" + camera.name);
+    camera_columns_.push_back(columns);
+  }
+}
+
+int JointProblem::AddDepthBias(const DepthBiasPrior& prior, const std::string& of_camera) {
+  const auto column = static_cast<int>(variables_.size());
+  for (const std::string& name : geometry::NamesOf(prior.basis)) {
+    variables_.push_back(
+        {.name = name + of_camera,
+         .unit = "",
+         .prior = prior.coefficient,
+         .what_would_tell = "recordings of the robot at several distances, all over the image",
+         .considered = !prior.estimated,
+         .of_depth_bias = true});
+  }
+  return column;
 }
 
 int JointProblem::AddPoseVariables(const std::string& name, const geometry::RigidTransform& start,
@@ -118,24 +137,36 @@ double JointProblem::ValueOf(int variable, const Eigen::VectorXd& variables) con
   return variables_[At(variable)].prior.mean + Scale(variable) * variables[variable];
 }
 
-int JointProblem::PoseColumnOf(int own_pose) const {
-  return own_pose < 0 ? pose_column_ : own_pose_columns_.at(At(own_pose));
+JointProblem::CameraColumns JointProblem::ColumnsOf(const CalibrationFrame& frame) const {
+  CameraColumns columns = camera_columns_.front();
+  if (frame.own_pose >= 0) columns.pose = own_pose_columns_.at(At(frame.own_pose));
+  return columns;
 }
 
-CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables, int own_pose) const {
-  const int column = PoseColumnOf(own_pose);
+CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables, int pose_column,
+                                const geometry::RigidTransform& T_robot_camera_start) const {
   PoseChange change = PoseChange::Zero();
-  if (column >= 0) {
-    for (int i = 0; i < 6; ++i) change[i] = ValueOf(column + i, variables);
+  if (pose_column >= 0) {
+    for (int i = 0; i < 6; ++i) change[i] = ValueOf(pose_column + i, variables);
   }
-  return {own_pose < 0 ? setup_.T_robot_camera : setup_.own_poses[At(own_pose)].T_robot_camera,
-          change};
+  return {T_robot_camera_start, change};
 }
 
-AdjustedPose JointProblem::AdjustedAt(const Eigen::VectorXd& variables, int own_pose,
-                                      const PosePrior& prior) const {
-  AdjustedPose pose{.name = prior.name,
-                    .T_robot_camera = ViewAt(variables, own_pose).T_robot_camera()};
+CameraView JointProblem::ViewOf(const CalibrationFrame& frame,
+                                const Eigen::VectorXd& variables) const {
+  if (frame.own_pose < 0) return ViewOfCamera(0, variables);
+  return ViewAt(variables, ColumnsOf(frame).pose,
+                setup_.own_poses[At(frame.own_pose)].T_robot_camera);
+}
+
+CameraView JointProblem::ViewOfCamera(int camera, const Eigen::VectorXd& variables) const {
+  return ViewAt(
+      variables, pose_column(camera),
+      camera == 0 ? setup_.T_robot_camera : setup_.further_cameras[At(camera - 1)].T_robot_camera);
+}
+
+AdjustedPose JointProblem::Adjusted(const CameraView& view, const PosePrior& prior) {
+  AdjustedPose pose{.name = prior.name, .T_robot_camera = view.T_robot_camera()};
   pose.from_prior = ChangeBetween(prior.T_robot_camera, pose.T_robot_camera);
   pose.chi_squared =
       pose.from_prior.head<3>().squaredNorm() / std::pow(prior.rotation_sigma_rad, 2) +
@@ -146,25 +177,29 @@ AdjustedPose JointProblem::AdjustedAt(const Eigen::VectorXd& variables, int own_
 std::vector<AdjustedPose> JointProblem::AdjustedPosesAt(const Eigen::VectorXd& variables) const {
   std::vector<AdjustedPose> poses;
   if (setup_.fit_pose && setup_.pose_prior) {
-    poses.push_back(AdjustedAt(variables, -1, *setup_.pose_prior));
+    poses.push_back(Adjusted(ViewOfCamera(0, variables), *setup_.pose_prior));
   }
   for (std::size_t p = 0; p < setup_.own_poses.size(); ++p) {
-    poses.push_back(AdjustedAt(variables, static_cast<int>(p), setup_.own_poses[p]));
+    const PosePrior& prior = setup_.own_poses[p];
+    poses.push_back(Adjusted(ViewAt(variables, own_pose_columns_[p], prior.T_robot_camera), prior));
+  }
+  for (int camera = 1; camera < CameraCount(); ++camera) {
+    const auto& prior = setup_.further_cameras[At(camera - 1)].pose_prior;
+    if (prior) poses.push_back(Adjusted(ViewOfCamera(camera, variables), *prior));
   }
   return poses;
 }
 
-/// Empty without a depth bias.
-Eigen::VectorXd JointProblem::DepthBasisAt(const Eigen::Vector3d& p_camera_m) const {
-  if (!setup_.depth_bias) return {};
-  return geometry::ValuesAt(setup_.depth_bias->basis, p_camera_m);
+Eigen::VectorXd JointProblem::DepthBasisAt(int camera, const Eigen::Vector3d& p_camera_m) const {
+  if (!depth_bias(camera)) return {};
+  return geometry::ValuesAt(depth_bias(camera)->basis, p_camera_m);
 }
 
-double JointProblem::DepthScaleAt(const Eigen::VectorXd& basis,
+double JointProblem::DepthScaleAt(int camera, const Eigen::VectorXd& basis,
                                   const Eigen::VectorXd& variables) const {
   double scale = 0.0;
   for (Eigen::Index k = 0; k < basis.size(); ++k) {
-    scale += basis[k] * ValueOf(depth_bias_column_ + static_cast<int>(k), variables);
+    scale += basis[k] * ValueOf(depth_bias_column(camera) + static_cast<int>(k), variables);
   }
   return scale;
 }
@@ -176,8 +211,8 @@ std::vector<Eigen::VectorXd> JointProblem::ShapesAt(const Eigen::VectorXd& varia
   return shapes_m;
 }
 
-geometry::RigidTransform JointProblem::PoseAt(const Eigen::VectorXd& variables) const {
-  return ViewAt(variables, -1).T_robot_camera();
+geometry::RigidTransform JointProblem::PoseAt(const Eigen::VectorXd& variables, int camera) const {
+  return ViewOfCamera(camera, variables).T_robot_camera();
 }
 
 Eigen::Vector3d JointProblem::OffsetOf(int marker, const Eigen::VectorXd& variables) const {
@@ -254,36 +289,36 @@ void JointProblem::SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* p
   scale_ = scale_column_ >= 0 ? ValueOf(scale_column_, variables) : 1.0;
   Eigen::Index row = 0;
   for (const CalibrationFrame& frame : setup_.frames) {
-    const CameraView view = ViewAt(variables, frame.own_pose);
-    SeeMarkers(frame, view, variables, &row, point);
-    SeeSurface(frame, view, variables, &row, point);
+    SeeMarkers(frame, variables, &row, point);
+    SeeSurface(frame, variables, &row, point);
   }
   AddPriors(variables, point);
 }
 
 JointProblem::PlaceInFrame JointProblem::PlaceOf(const CalibrationFrame& frame,
+                                                 const CameraColumns& camera,
                                                  const fem::InterpolationWeights& point,
                                                  const Eigen::VectorXd& variables) const {
   const auto index = static_cast<std::size_t>(&frame - setup_.frames.data());
   const SolvedState& solved = shapes_.solved(index);
-  return {PoseColumnOf(frame.own_pose), point, solved.column(), solved.PlaceOf(point, variables)};
+  return {camera, solved.column(), solved.PlaceOf(point, variables)};
 }
 
-void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
-                              const Eigen::VectorXd& variables, Eigen::Index* row,
-                              LeastSquaresPoint* point) {
+void JointProblem::SeeMarkers(const CalibrationFrame& frame, const Eigen::VectorXd& variables,
+                              Eigen::Index* row, LeastSquaresPoint* point) {
   const auto index = static_cast<size_t>(&frame - setup_.frames.data());
+  const CameraView view = ViewOf(frame, variables);
   Eigen::Matrix3Xd& residuals_m = marker_residuals_m_[index];
   for (std::size_t k = 0; k < frame.markers.size(); ++k) {
     const MarkerSighting& sighting = frame.markers[k];
     const fem::InterpolationWeights& weights =
         model_.body().markers.at(At(sighting.marker)).point.weights;
-    const PlaceInFrame seen = PlaceOf(frame, weights, variables);
+    const PlaceInFrame seen = PlaceOf(frame, ColumnsOf(frame), weights, variables);
     const Eigen::Vector3d place_m =
         scale_ * seen.place.position_m + OffsetOf(sighting.marker, variables);
     const Eigen::VectorXd basis =
-        frame.by_depth_camera ? DepthBasisAt(sighting.position_m) : Eigen::VectorXd();
-    const double depth_scale = DepthScaleAt(basis, variables);
+        frame.by_depth_camera ? DepthBasisAt(0, sighting.position_m) : Eigen::VectorXd();
+    const double depth_scale = DepthScaleAt(0, basis, variables);
     const SightingRows<3> rows = view.Rows(sighting, place_m, depth_scale);
     PutRows(rows, basis, seen, *row, point);
     if (marker_offset_column_ >= 0) {
@@ -298,17 +333,22 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
   residual_rms_m_[index] = residuals_m.norm() / std::sqrt(count);
 }
 
-void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& view,
-                              const Eigen::VectorXd& variables, Eigen::Index* row,
-                              LeastSquaresPoint* point) {
+void JointProblem::SeeSurface(const CalibrationFrame& frame, const Eigen::VectorXd& variables,
+                              Eigen::Index* row, LeastSquaresPoint* point) {
   if (frame.surface.empty()) return;
   const auto index = static_cast<size_t>(&frame - setup_.frames.data());
+  std::vector<CameraView> views = {ViewOf(frame, variables)};
+  std::vector<CameraColumns> columns = camera_columns_;
+  columns.front() = ColumnsOf(frame);
+  for (int camera = 1; camera < CameraCount(); ++camera)
+    views.push_back(ViewOfCamera(camera, variables));
   double squares_m2 = 0.0;
   for (const SurfaceSighting& sighting : frame.surface) {
-    const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
-    const PlaceInFrame seen = PlaceOf(frame, sighting.point, variables);
-    const SightingRows<1> rows =
-        view.Rows(sighting, scale_ * seen.place.position_m, DepthScaleAt(basis, variables));
+    const int camera = sighting.camera;
+    const Eigen::VectorXd basis = DepthBasisAt(camera, sighting.position_m);
+    const PlaceInFrame seen = PlaceOf(frame, columns[At(camera)], sighting.point, variables);
+    const SightingRows<1> rows = views[At(camera)].Rows(sighting, scale_ * seen.place.position_m,
+                                                        DepthScaleAt(camera, basis, variables));
     PutRows(rows, basis, seen, *row, point);
     PutSharedErrors(sighting, *row, point);
     const double off_m = rows.residual[0] * sighting.sigma_m;
@@ -334,12 +374,12 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
                            const PlaceInFrame& seen, Eigen::Index row,
                            LeastSquaresPoint* point) const {
   point->residual.segment<Rows>(row) = rows.residual;
-  for (int i = 0; i < 6 && seen.pose_column >= 0; ++i) {
-    const int column = seen.pose_column + i;
+  for (int i = 0; i < 6 && seen.camera.pose >= 0; ++i) {
+    const int column = seen.camera.pose + i;
     point->jacobian.block<Rows, 1>(row, column) = Scale(column) * rows.per_pose.col(i);
   }
   for (Eigen::Index k = 0; k < depth_basis.size(); ++k) {
-    const int column = depth_bias_column_ + static_cast<int>(k);
+    const int column = seen.camera.depth_bias + static_cast<int>(k);
     point->jacobian.block<Rows, 1>(row, column) =
         Scale(column) * depth_basis[k] * rows.per_depth_scale;
   }

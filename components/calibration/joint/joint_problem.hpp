@@ -31,12 +31,13 @@ struct Variable {
   bool considered = false;           ///< never estimated: held at its mean for the covariance
   bool models_own = false;           ///< an error of the model itself (Against::kThisModel)
   bool of_pose = false;
+  bool of_depth_bias = false;
 };
 
 /// The least-squares problem of a joint calibration (eq. (7) of the paper over all frames):
 /// residuals of the equilibria, with exact derivatives by their sensitivities. Variables are
 /// scaled: value = mean + ScaleOf(prior) * variable. Rows: per frame markers (3 each) and surface
-/// points (1 each), then one for each prior.
+/// points (1 each), then one for each prior. Cameras are numbered as by SurfaceSighting.
 class JointProblem final : public LeastSquaresProblem {
  public:
   /// Both must outlive it. It changes moduli and gravity of the model.
@@ -57,15 +58,21 @@ class JointProblem final : public LeastSquaresProblem {
   Eigen::Index DataRows() const { return data_rows_; }
   double Scale(int variable) const;
   double ValueOf(int variable, const Eigen::VectorXd& variables) const;
-  geometry::RigidTransform PoseAt(const Eigen::VectorXd& variables) const;
-  /// The poses that have a prior, that to calibrate first.
+  int CameraCount() const { return static_cast<int>(camera_columns_.size()); }
+  geometry::RigidTransform PoseAt(const Eigen::VectorXd& variables, int camera = 0) const;
+  /// The poses that have a prior, that of the first camera first.
   std::vector<AdjustedPose> AdjustedPosesAt(const Eigen::VectorXd& variables) const;
   /// Whether SolveLiftedGaussNewton can solve it.
   bool CanBeLifted() const { return setup_.conditions.empty(); }
   /// First columns of pose (6) and depth bias; -1: not estimated.
-  int pose_column() const { return pose_column_; }
-  int depth_bias_column() const { return depth_bias_column_; }
-  const std::optional<DepthBiasPrior>& depth_bias() const { return setup_.depth_bias; }
+  int pose_column(int camera = 0) const { return camera_columns_[At(camera)].pose; }
+  int depth_bias_column(int camera = 0) const { return camera_columns_[At(camera)].depth_bias; }
+  const std::optional<DepthBiasPrior>& depth_bias(int camera = 0) const {
+    return camera == 0 ? setup_.depth_bias : setup_.further_cameras[At(camera - 1)].depth_bias;
+  }
+  bool EstimatesDepthBias(int camera) const {
+    return depth_bias(camera) && depth_bias(camera)->estimated;
+  }
   /// [frames] equilibria of the model at the last point: of a robot of scale 1 (ToModel).
   const std::vector<fem::StaticState>& states() const { return shapes_.states(); }
   BodyShapes& shapes() { return shapes_; }
@@ -93,29 +100,41 @@ class JointProblem final : public LeastSquaresProblem {
   /// `prior`: nullptr: none. Returns the first column.
   int AddPoseVariables(const std::string& name, const geometry::RigidTransform& start,
                        const PosePrior* prior);
+  void AddFurtherCameras();
+  /// `of_camera`: appended to names. Returns the first column.
+  int AddDepthBias(const DepthBiasPrior& prior, const std::string& of_camera);
   void AddMarkerOffsets();
-  /// First column of the pose from which a frame is seen; -1: the pose is given.
-  int PoseColumnOf(int own_pose) const;
-  CameraView ViewAt(const Eigen::VectorXd& variables, int own_pose) const;
-  AdjustedPose AdjustedAt(const Eigen::VectorXd& variables, int own_pose,
-                          const PosePrior& prior) const;
-  Eigen::VectorXd DepthBasisAt(const Eigen::Vector3d& p_camera_m) const;
-  double DepthScaleAt(const Eigen::VectorXd& basis, const Eigen::VectorXd& variables) const;
+  /// Variables that say what a camera sees of a given shape.
+  struct CameraColumns {
+    int pose = -1;        ///< first of 6; -1: the pose is given
+    int depth_bias = -1;  ///< first; -1: no bias
+  };
+  /// Of the camera that sees a frame's markers, and its surface where no further one is named.
+  CameraColumns ColumnsOf(const CalibrationFrame& frame) const;
+  CameraView ViewAt(const Eigen::VectorXd& variables, int pose_column,
+                    const geometry::RigidTransform& T_robot_camera_start) const;
+  CameraView ViewOf(const CalibrationFrame& frame, const Eigen::VectorXd& variables) const;
+  CameraView ViewOfCamera(int camera, const Eigen::VectorXd& variables) const;
+  static AdjustedPose Adjusted(const CameraView& view, const PosePrior& prior);
+  /// Empty without a depth bias.
+  Eigen::VectorXd DepthBasisAt(int camera, const Eigen::Vector3d& p_camera_m) const;
+  double DepthScaleAt(int camera, const Eigen::VectorXd& basis,
+                      const Eigen::VectorXd& variables) const;
   Eigen::Vector3d OffsetOf(int marker, const Eigen::VectorXd& variables) const;
   void Clear(LeastSquaresPoint* point) const;
   void SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* point);
-  void SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
-                  const Eigen::VectorXd& variables, Eigen::Index* row, LeastSquaresPoint* point);
-  void SeeSurface(const CalibrationFrame& frame, const CameraView& view,
-                  const Eigen::VectorXd& variables, Eigen::Index* row, LeastSquaresPoint* point);
-  /// A point of the body in a frame.
+  void SeeMarkers(const CalibrationFrame& frame, const Eigen::VectorXd& variables,
+                  Eigen::Index* row, LeastSquaresPoint* point);
+  void SeeSurface(const CalibrationFrame& frame, const Eigen::VectorXd& variables,
+                  Eigen::Index* row, LeastSquaresPoint* point);
+  /// A point of the body in a frame, and the camera that sees it there.
   struct PlaceInFrame {
-    int pose_column;
-    const fem::InterpolationWeights& point;
+    CameraColumns camera;
     const std::vector<Eigen::Index>& column;  ///< variables that move it
     SolvedState::Place place;
   };
-  PlaceInFrame PlaceOf(const CalibrationFrame& frame, const fem::InterpolationWeights& point,
+  PlaceInFrame PlaceOf(const CalibrationFrame& frame, const CameraColumns& camera,
+                       const fem::InterpolationWeights& point,
                        const Eigen::VectorXd& variables) const;
   void PutSharedErrors(const SurfaceSighting& sighting, Eigen::Index row,
                        LeastSquaresPoint* point) const;
@@ -130,9 +149,8 @@ class JointProblem final : public LeastSquaresProblem {
   std::vector<bool> held_;
   std::vector<double> reached_;
   Eigen::VectorXd start_;
-  int pose_column_ = -1;
+  std::vector<CameraColumns> camera_columns_;  ///< [CameraCount()]
   std::vector<int> own_pose_columns_;
-  int depth_bias_column_ = -1;
   int marker_offset_column_ = -1;
   int shared_error_column_ = -1;
   int scale_column_ = -1;

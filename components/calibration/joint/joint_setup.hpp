@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "components/calibration/joint/calibration_frame.hpp"
@@ -18,6 +19,14 @@
 
 namespace palpate::calibration {
 
+/// A depth camera beside the first, whose pose and depth bias are estimated.
+struct FurtherCamera {
+  std::string name;
+  geometry::RigidTransform T_robot_camera;   ///< initial
+  std::optional<PosePrior> pose_prior = {};  ///< nullopt: none
+  std::optional<DepthBiasPrior> depth_bias = {};
+};
+
 /// Data, unknowns and known quantities of one joint calibration.
 struct JointSetup {
   std::vector<CalibrationFrame> frames;
@@ -27,13 +36,14 @@ struct JointSetup {
   /// Copies of the calibrated model (ModelsLike). Each takes a share of the frames on a thread of
   /// its own.
   std::vector<std::unique_ptr<robot::RobotModel>> helpers = {};
-  geometry::RigidTransform T_robot_camera;  ///< initial, or known
+  geometry::RigidTransform T_robot_camera;  ///< of the first camera: initial, or known
   bool fit_pose = true;
   std::optional<PosePrior> pose_prior = {};  ///< of the pose that is fitted; nullopt: none
   /// Poses of other cameras, or of the frame that markers were measured in. They are estimated so
   /// that their errors count in the other parameters.
   std::vector<PosePrior> own_poses = {};
-  std::optional<DepthBiasPrior> depth_bias;  ///< nullopt: no bias
+  std::optional<DepthBiasPrior> depth_bias;  ///< of the first camera; nullopt: none
+  std::vector<FurtherCamera> further_cameras = {};
   /// [parameters of SurfaceSighting::shared] Whether each is an error of the model itself, which
   /// recurs wherever the model is aligned with the robot. All are considered in the covariance.
   std::vector<bool> shared_errors = {};

@@ -13,7 +13,7 @@
 
 namespace palpate::calibration {
 
-/// Moduli, Poisson's ratios, cable routes and gravity of a model, for restoring them.
+/// Moduli, Poisson's ratios, cable routes, drives and gravity of a model, for restoring them.
 class ModelSnapshot {
  public:
   /// `model` must outlive it.
@@ -21,6 +21,7 @@ class ModelSnapshot {
       : model_(model),
         materials_(model.body().materials),
         cables_(model.body().cables),
+        drives_(model.drives()),
         gravity_m_s2_(model.gravity_m_s2()) {
     for (int c = 0; c < model.CableCount(); ++c) {
       pull_points_m_.push_back(model.cable(c).pull_point_m());
@@ -36,6 +37,7 @@ class ModelSnapshot {
       model_.SetPullPoint(c, pull_points_m_[At(c)]);
       RestoreEyelets(c);
     }
+    for (int a = 0; a < model_.ActuatorCount(); ++a) model_.SetDrive(a, drives_[At(a)]);
     RestoreGravity();
   }
   void RestoreGravity() const { model_.SetGravity(gravity_m_s2_); }
@@ -55,6 +57,7 @@ class ModelSnapshot {
   robot::RobotModel& model_;
   std::vector<fem::Material> materials_;
   std::vector<robot::BodyCable> cables_;
+  std::vector<robot::DriveCalibration> drives_;
   std::vector<Eigen::Vector3d> pull_points_m_;
   Eigen::Vector3d gravity_m_s2_;
 };

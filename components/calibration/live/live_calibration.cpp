@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
+#include "components/calibration/cloud/join_frames.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/model_snapshot.hpp"
 #include "components/calibration/joint/request_after.hpp"
@@ -64,7 +65,22 @@ std::string HashOf(const LiveJob& job) {
   return "sha256-" + Sha256Hex(bytes);
 }
 
-JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* result) {
+/// With the cameras of `further` beside the first, at their initial poses.
+CloudSettings SettingsOf(const LiveJob& job, const std::vector<FurtherCameraJob>& further) {
+  CloudSettings settings;
+  settings.request = job.request;
+  settings.fit_depth_bias = job.fit_depth_bias && job.picture;
+  settings.search.stop = job.request.stop;
+  for (const FurtherCameraJob& camera : further) {
+    settings.further_cameras.push_back({.name = camera.name,
+                                        .T_robot_camera_start = camera.T_robot_camera_start,
+                                        .fit_depth_bias = job.fit_depth_bias && camera.picture});
+  }
+  return settings;
+}
+
+JointCalibration Fit(robot::RobotModel& model, const LiveJob& job,
+                     const std::vector<FurtherCameraJob>& further, LiveResult* result) {
   const geometry::RigidTransform* start =
       job.T_robot_camera_start ? &*job.T_robot_camera_start : nullptr;
   if (!job.points.empty()) {
@@ -83,13 +99,42 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* r
     refused.status = {StatusCode::kNoCalibration, "clouds need an approximate camera pose"};
     return refused;
   }
-  CloudSettings settings;
-  settings.request = job.request;
-  settings.fit_depth_bias = job.fit_depth_bias && job.picture;
-  settings.search.stop = job.request.stop;
-  CloudCalibration fit = CalibrateFromClouds(model, job.clouds, *start, settings);
+  std::vector<std::vector<CloudFrame>> of_further;
+  for (const FurtherCameraJob& camera : further) of_further.push_back(camera.clouds);
+  CloudCalibration fit = CalibrateFromClouds(model, JoinFrames(job.clouds, of_further), *start,
+                                             SettingsOf(job, further));
   fit.joint.status = fit.status;
   return std::move(fit.joint);
+}
+
+/// Of a model with the last calibration. `read`: the job with its frames read as that has them.
+JointCalibration FitAsBefore(robot::RobotModel& model, const LiveJob& read,
+                             const std::vector<FurtherCameraJob>& further, LiveResult* result) {
+  const ModelSnapshot kept(model);
+  if (read.before) {
+    robot::CalibrationFile body = *read.before;
+    body.drives.clear();  // already applied to the frames, as the pressure sensors
+    robot::ApplyCalibration(body, &model);
+  }
+  JointCalibration fit = Fit(model, read, further, result);
+  kept.Restore();
+  return fit;
+}
+
+/// The calibration of a fit. `model` as the robot file has it.
+robot::CalibrationFile FileOf(const LiveJob& job, const JointCalibration& fit,
+                              robot::RobotModel& model) {
+  robot::CalibrationFile file = robot::DescribeForCalibration(model);
+  file.date_utc = UtcText(job.found_ns_since_1970 / 1'000'000'000);
+  file.data = job.data;
+  file.data_hash = HashOf(job);
+  const ModelSnapshot kept(model);
+  if (job.before && job.before->gravity) model.SetGravity(job.before->gravity->gravity_m_s2);
+  TakeFit(fit, model, &file);
+  kept.RestoreGravity();
+  if (job.picture) TakeDepthBias(fit, *job.picture, &file);
+  if (job.before) KeepFromBefore(*job.before, &file);
+  return file;
 }
 
 /// Pose and depth bias of a further camera, for the robot that `file` describes.
@@ -103,18 +148,17 @@ Status FitFurtherCamera(robot::RobotModel& model, const LiveJob& job, FurtherCam
   const CloudCalibration fit =
       CalibrateFromClouds(model, camera.clouds, camera.T_robot_camera_start, settings);
   if (!fit.status.ok()) return fit.status;
-  robot::CalibrationFile alone;
-  TakeFit(fit.joint, model, &alone);
-  if (camera.picture) TakeDepthBias(fit.joint, *camera.picture, &alone);
-  if (!alone.pose) return {StatusCode::kUnobservable, "its clouds do not determine its pose"};
-  *found = {camera.name, *alone.pose, alone.depth_bias};
+  *found = CameraOf(camera.name, fit.joint, camera.picture);
   return Status::Ok();
 }
 
-void CalibrateFurther(robot::RobotModel& model, const LiveJob& job, LiveResult* result) {
+/// Returns those that were found, at their poses.
+std::vector<FurtherCameraJob> CalibrateFurther(robot::RobotModel& model, const LiveJob& job,
+                                               LiveResult* result) {
   robot::CalibrationFile body = result->file;
   body.drives.clear();  // applied to the frames, as the pressure sensors
   const ModelSnapshot nominal(model);
+  std::vector<FurtherCameraJob> cameras;
   for (const FurtherCameraJob& camera : job.further) {
     if (camera.clouds.empty()) {
       result->left_out.push_back("camera '" + camera.name + "': it did not see the robot");
@@ -125,17 +169,39 @@ void CalibrateFurther(robot::RobotModel& model, const LiveJob& job, LiveResult* 
     const Status status = FitFurtherCamera(model, job, camera, result->file, &found);
     nominal.Restore();
     if (status.ok()) {
+      const Eigen::Isometry3d& T = found.pose.T_robot_camera;
+      cameras.push_back(camera);
+      cameras.back().T_robot_camera_start = {Eigen::Quaterniond(T.linear()), T.translation()};
       result->file.cameras.push_back(std::move(found));
     } else {
       result->left_out.push_back("camera '" + camera.name + "': " + status.message());
     }
+  }
+  return cameras;
+}
+
+/// Replaces what the cameras tell one after the other by what they tell together.
+void CalibrateAll(robot::RobotModel& model, const LiveJob& job, const LiveJob& read,
+                  const JointCalibration& first, const std::vector<FurtherCameraJob>& further,
+                  LiveResult* result) {
+  const JointCalibration fit = FitAsBefore(model, read, further, result);
+
+  if (!fit.status.ok() || !AgreesWith(first, fit)) {
+    const std::string why = fit.status.ok() ? "they contradict each other" : fit.status.message();
+    result->left_out.push_back("one fit of all cameras: " + why);
+    return;
+  }
+  result->file = FileOf(job, fit, model);
+  result->pose_covariance = fit.pose_covariance;
+  for (std::size_t k = 0; k < further.size(); ++k) {
+    result->file.cameras.push_back(
+        CameraOf(further[k].name, fit.further_cameras[k], further[k].picture));
   }
 }
 
 }  // namespace
 
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
-  const ModelSnapshot kept(model);
   LiveResult result;
   LiveJob read = job;
   if (job.before) {
@@ -144,27 +210,15 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
     ReadAsBefore(*job.before, model, &read.clouds);
     ReadAsBefore(*job.before, model, &read.markers);
     ReadAsBefore(*job.before, model, &read.points);
-    robot::CalibrationFile body = *job.before;
-    body.drives.clear();  // already applied to the frames, as the pressure sensors
-    robot::ApplyCalibration(body, &model);
   }
-  const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
-  const JointCalibration fit = Fit(model, read, &result);
-  kept.Restore();
+  const JointCalibration fit = FitAsBefore(model, read, {}, &result);
   result.status = fit.status;
   if (!fit.status.ok()) return result;
-  result.file = robot::DescribeForCalibration(model);
-  result.file.date_utc = UtcText(job.found_ns_since_1970 / 1'000'000'000);
-  result.file.data = job.data;
-  result.file.data_hash = HashOf(job);
-  model.SetGravity(gravity_m_s2);
-  TakeFit(fit, model, &result.file);
-  if (job.picture) TakeDepthBias(fit, *job.picture, &result.file);
-  kept.RestoreGravity();
-  if (job.before) KeepFromBefore(*job.before, &result.file);
-  CalibrateFurther(model, job, &result);
-  if (job.before) KeepCamerasFromBefore(*job.before, &result.file);
+  result.file = FileOf(job, fit, model);
   result.pose_covariance = fit.pose_covariance;
+  const std::vector<FurtherCameraJob> further = CalibrateFurther(model, job, &result);
+  if (!further.empty()) CalibrateAll(model, job, read, fit, further, &result);
+  if (job.before) KeepCamerasFromBefore(*job.before, &result.file);
   return result;
 }
 

@@ -60,9 +60,10 @@ struct LiveResult {
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// Runs a job: first the robot and the first camera, then each further camera against that robot. A
-/// further camera whose fit fails keeps its pose of the last calibration. `model` must be as the
-/// robot file has it and is left unchanged.
+/// Runs a job: the robot and the first camera, then each further camera against that robot, then
+/// all that were found in one fit. A further camera whose fit fails keeps its pose of the last
+/// calibration. Where the fit of all fails, which `left_out` says, those before it count. `model`
+/// must be as the robot file has it and is left unchanged.
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job);
 
 }  // namespace palpate::calibration

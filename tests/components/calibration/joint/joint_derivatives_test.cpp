@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "components/calibration/joint/models_like.hpp"
@@ -106,6 +107,30 @@ TEST_F(JointDerivatives, OfPosesWithPriorsAreThoseOfCentralDifferences) {
                                 .rotation_sigma_rad = 0.02};
   setup_.own_poses = {*setup_.pose_prior};
   setup_.frames[0].own_pose = 0;
+  ExpectCentralDifferences(*model_, setup_);
+}
+
+TEST_F(JointDerivatives, OfFurtherCamerasAreThoseOfCentralDifferences) {
+  const geometry::RigidTransform beside = Disturbed(TableOnePose(), 0.3, 0.05);
+  setup_.further_cameras = {
+      {.name = "left", .T_robot_camera = beside, .depth_bias = setup_.depth_bias},
+      {.name = "right",
+       .T_robot_camera = TableOnePose(),
+       .pose_prior = PosePrior{.name = "right",
+                               .T_robot_camera = Disturbed(TableOnePose(), 0.02, 0.004),
+                               .translation_sigma_m = 0.005,
+                               .rotation_sigma_rad = 0.02}}};
+  SurfaceSighting sighting = setup_.frames[1].surface[0];
+  const fem::InterpolationWeights foot = model_->body().markers.back().point.weights;
+  for (const int camera : {1, 2}) {
+    for (int k = 0; k < 6; ++k) {  // as many as a pose has freedoms
+      sighting.camera = camera;
+      sighting.position_m = Eigen::Vector3d(0.03 * std::cos(k), 0.03 * std::sin(k), 0.4 + 0.01 * k);
+      sighting.normal = Eigen::Vector3d(std::sin(2.0 * k), std::cos(3.0 * k), 1.0).normalized();
+      if (k > 3) sighting.point = foot;
+      setup_.frames[static_cast<std::size_t>(k % 2)].surface.push_back(sighting);
+    }
+  }
   ExpectCentralDifferences(*model_, setup_);
 }
 

@@ -8,7 +8,7 @@
 #include "components/calibration/live/live_calibration.hpp"
 #include "tests/components/calibration/cloud/cloud_scene.hpp"
 
-/// Clouds of two cameras calibrate both: the first with the robot, the second against that robot.
+/// Clouds of two cameras calibrate both and the robot.
 namespace palpate::calibration {
 namespace {
 
@@ -66,12 +66,25 @@ TEST_F(LiveClouds, FindBothPosesAndTheActuatorsOfOneRobot) {
             4.0 * found.pose.translation_error_m.norm());
   ASSERT_TRUE(found.depth_bias);
   EXPECT_EQ(found.depth_bias->picture, *back_.picture);
-  ASSERT_EQ(result.file.drives.size(), 4u) << "those of the first fit";
+  ASSERT_EQ(result.file.drives.size(), 4u);
   for (const robot::CalibratedDrive& drive : result.file.drives) {
     EXPECT_NEAR(drive.drive.offset_m, kZeroOffset_m, 0.4e-3) << drive.cable;
   }
   EXPECT_EQ(model_->body().materials[0].youngs_modulus_Pa, modulus_Pa);
   EXPECT_EQ(model_->drives().at(0).offset_m, 0.0);
+}
+
+TEST_F(LiveClouds, OfBothCamerasTellTheActuatorsBetterThanThoseOfOne) {
+  const LiveResult one = CalibrateLive(*model_, job_);
+  job_.further = {back_};
+  const LiveResult both = CalibrateLive(*model_, job_);
+  ASSERT_TRUE(one.status.ok() && both.status.ok());
+  EXPECT_EQ(one.file.data_hash.size(), both.file.data_hash.size());
+  ASSERT_EQ(one.file.drives.size(), both.file.drives.size());
+  for (std::size_t d = 0; d < one.file.drives.size(); ++d) {
+    EXPECT_LT(both.file.drives[d].standard_error.offset_m,
+              0.95 * one.file.drives[d].standard_error.offset_m);
+  }
 }
 
 TEST_F(LiveClouds, ACameraThatCannotBeFittedKeepsItsPoseAndIsNamed) {
