@@ -94,14 +94,6 @@ void Run(const Comparison& compared, const perception::Config& perception,
   if (!found->fit.status.ok()) Refuse(compared, FailureText(found->fit.status), model);
 }
 
-/// Noise, the facets of the mesh and a sound model's errors leave a chi-squared below the degrees
-/// of freedom. Twice these errors are another body than the model's: the pose is fitted to that,
-/// too.
-bool IsPossible(const calibration::JointCalibration& joint) {
-  constexpr double kMostChiSquared = 4.0;
-  return joint.chi_squared <= kMostChiSquared * std::max(1, joint.degrees_of_freedom);
-}
-
 /// Of a robot of this size and shape that is nearly where it should be.
 std::string ImpossibleText(const ImageCalibration& found) {
   const calibration::JointCalibration& joint = found.fit.joint;
@@ -119,15 +111,25 @@ std::string ImpossibleText(const ImageCalibration& found) {
       1e3 * found.fit.matches[worst].rms_m);
 }
 
+void PrintMatches(const std::vector<calibration::CloudFrame>& frames,
+                  const std::vector<calibration::CloudMatch>& matches, const std::string& prefix) {
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const calibration::CloudMatch& match = matches[f];
+    if (match.points == 0) continue;
+    fmt::print(
+        "{}{}: {} of {} points on the surface, residual {:.3f} mm RMS; {:.0f} % of the visible "
+        "surface has points\n",
+        prefix, frames[f].name, match.matched, match.points, 1e3 * match.rms_m,
+        100.0 * match.surface_covered);
+  }
+}
+
 void Print(const ImageCalibration& found) {
   const calibration::JointCalibration& joint = found.fit.joint;
-  for (std::size_t f = 0; f < found.frames.size(); ++f) {
-    const calibration::CloudMatch& match = found.fit.matches[f];
-    fmt::print(
-        "{}: {} of {} points on the surface, residual {:.3f} mm RMS; {:.0f} % of the visible "
-        "surface has points\n",
-        found.frames[f].name, match.matched, match.points, 1e3 * match.rms_m,
-        100.0 * match.surface_covered);
+  PrintMatches(found.frames, found.fit.matches, "");
+  for (std::size_t k = 0; k < found.clouds.further_cameras.size(); ++k) {
+    PrintMatches(found.frames, found.fit.further_matches[k],
+                 "camera '" + found.clouds.further_cameras[k].name + "', ");
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} rounds\n", joint.chi_squared,
              joint.degrees_of_freedom, found.fit.rounds);
@@ -142,24 +144,33 @@ bool AreOfOneCamera(const std::vector<experiment::RgbdSequence>& sequences) {
 
 }  // namespace
 
+CameraImages OpenCameraImages(const CalibrateOptions& options,
+                              const experiment::Experiment& experiment,
+                              const robot::RobotModel& model) {
+  CameraImages images;
+  images.recordings = RecordingsWithImages(options, experiment);
+  images.sequences.reserve(images.recordings.size());  // samples point at them
+  for (const Recording* recording : images.recordings) {
+    images.sequences.push_back(OpenImages(*recording));
+    for (offline::ImageSample& sample : offline::SamplesOf(
+             *recording, images.sequences.back(), model, ParseCableInput(options.cable_input))) {
+      images.samples.push_back(std::move(sample));
+    }
+  }
+  return images;
+}
+
 ImageCalibration FitImages(const CalibrateOptions& options,
                            const experiment::Experiment& experiment, const Eigen::Isometry3d& start,
                            calibration::CloudSettings clouds, robot::RobotModel* model) {
   const perception::Config perception = PerceptionOf(options.overrides, experiment);
+  const CameraImages images = OpenCameraImages(options, experiment, *model);
+  const std::vector<offline::ImageSample>& samples = images.samples;
   ImageCalibration found;
-  found.recordings = RecordingsWithImages(options, experiment);
-  std::vector<experiment::RgbdSequence> sequences;
-  sequences.reserve(found.recordings.size());
-  std::vector<offline::ImageSample> samples;
-  for (const Recording* recording : found.recordings) {
-    sequences.push_back(OpenImages(*recording));
-    for (offline::ImageSample& sample : offline::SamplesOf(*recording, sequences.back(), *model,
-                                                           ParseCableInput(options.cable_input))) {
-      samples.push_back(std::move(sample));
-    }
-  }
-  found.picture = rgbd::PictureOf(sequences.front().camera.depth);
-  clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(sequences);
+  found.recordings = images.recordings;
+  found.picture = rgbd::PictureOf(images.sequences.front().camera.depth);
+  clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(images.sequences);
+  found.clouds = clouds;
   const calibration::ModelSnapshot kept(*model);
   const Comparison compared{
       .samples = samples,
@@ -175,7 +186,7 @@ ImageCalibration FitImages(const CalibrateOptions& options,
   kept.Restore();
   const Eigen::Isometry3d nearer = ToIsometry(found.fit.joint.T_robot_camera);
   Run(compared, perception, ExpectedAt(shapes_m, nearer), nearer, clouds, model, &found);
-  if (IsPossible(found.fit.joint)) return found;
+  if (calibration::IsPossible(found.fit.joint)) return found;
   kept.Restore();
   Refuse(compared, ImpossibleText(found), model);
 }
@@ -190,10 +201,9 @@ robot::CalibrationFile Describe(const ImageCalibration& found, const CalibrateOp
   return file;
 }
 
-robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
-                                           const experiment::Experiment& experiment,
-                                           const std::vector<int>& materials,
-                                           robot::RobotModel* model) {
+FoundCalibration CalibrateFromImages(const CalibrateOptions& options,
+                                     const experiment::Experiment& experiment,
+                                     const std::vector<int>& materials, robot::RobotModel* model) {
   calibration::CloudSettings clouds;
   clouds.request = {.pose_prior = PriorOf(options, experiment),
                     .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
@@ -202,7 +212,9 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                     .pressure_gain_sigma = options.pressure_gain_sigma,
                     .moduli = materials};
   const Eigen::Isometry3d start = StartOf(options, experiment, *model);
-  return Describe(FitImages(options, experiment, start, clouds, model), options, *model);
+  ImageCalibration images = FitImages(options, experiment, start, clouds, model);
+  robot::CalibrationFile file = Describe(images, options, *model);
+  return {std::move(file), std::move(images)};
 }
 
 }  // namespace palpate::command

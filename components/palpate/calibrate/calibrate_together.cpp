@@ -109,34 +109,38 @@ std::vector<const experiment::Recording*> AllOf(const MarkerCalibration& markers
   return all;
 }
 
-/// Adds those moduli that the fit with images did not ask for.
-void TakeModuli(const std::vector<robot::Undetermined>& of_markers, robot::CalibrationFile* file) {
-  for (const robot::Undetermined& number : of_markers) {
-    const bool known =
-        std::any_of(file->undetermined.begin(), file->undetermined.end(),
-                    [&](const robot::Undetermined& other) { return other.name == number.name; });
-    if (number.name.starts_with("youngs_modulus:") && !known) file->undetermined.push_back(number);
+}  // namespace
+
+void TakeUndeterminedModuli(const std::vector<robot::Undetermined>& undetermined,
+                            robot::CalibrationFile* file) {
+  const auto has = [&](const std::string& name) {
+    return std::any_of(file->undetermined.begin(), file->undetermined.end(),
+                       [&](const auto& other) { return other.name == name; }) ||
+           std::any_of(file->moduli.begin(), file->moduli.end(), [&](const auto& modulus) {
+             return "youngs_modulus:" + modulus.part == name;
+           });
+  };
+  for (const robot::Undetermined& number : undetermined) {
+    if (number.name.starts_with("youngs_modulus:") && !has(number.name))
+      file->undetermined.push_back(number);
   }
 }
 
-}  // namespace
-
-robot::CalibrationFile CalibrateTogether(const CalibrateOptions& options,
-                                         const experiment::Experiment& experiment,
-                                         const std::vector<int>& materials,
-                                         robot::RobotModel* model) {
+FoundCalibration CalibrateTogether(const CalibrateOptions& options,
+                                   const experiment::Experiment& experiment,
+                                   const std::vector<int>& materials, robot::RobotModel* model) {
   const calibration::ModelSnapshot kept(*model);
   const MarkerCalibration markers = FitRecordedMarkers(options, experiment, materials, model);
   kept.Restore();
   std::optional<ImageCalibration> images = FitImagesToo(options, experiment, markers, model);
   robot::CalibrationFile file = Describe(markers, options, *model);
-  if (!images) return file;
+  if (!images) return {file};
   RequireAgreement(markers, *images, *model);
   images->recordings = AllOf(markers, *images);
   const std::vector<robot::Undetermined> of_markers = file.undetermined;
   file = Describe(*images, options, *model);
-  TakeModuli(of_markers, &file);
-  return file;
+  TakeUndeterminedModuli(of_markers, &file);
+  return {std::move(file), std::move(images)};
 }
 
 }  // namespace palpate::command

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "components/calibration/joint/found_calibration.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
@@ -66,8 +67,8 @@ bool HasMarkers(const experiment::Experiment& experiment) {
       [](const experiment::Recording& recording) { return recording.markers.has_value(); });
 }
 
-robot::CalibrationFile Find(const experiment::Experiment& experiment,
-                            const CalibrateOptions& options, robot::RobotModel* model) {
+FoundCalibration Find(const experiment::Experiment& experiment, const CalibrateOptions& options,
+                      robot::RobotModel* model) {
   const std::vector<int> materials = MaterialsOf(PartsOf(options, model->body()), model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
   if (!unlabelled) {
@@ -98,16 +99,17 @@ robot::CalibrationFile Find(const experiment::Experiment& experiment,
   // Named markers tell whether a modulus is determined; the others are asked for it.
   const bool named = options.what == "joint" || !options.parts.empty();
   const std::vector<int> asked = named ? materials : std::vector<int>();
-  if (from_images && fiducials) return CalibrateFromFiducials(options, experiment, asked, model);
+  if (from_images && fiducials) return {CalibrateFromFiducials(options, experiment, asked, model)};
   if (from_images) return CalibrateFromImages(options, experiment, asked, model);
   if (options.what == "material" && !HasMarkersOfTheCamera(experiment)) {
-    return CalibrateMaterial(options, experiment, materials, model);
+    return {CalibrateMaterial(options, experiment, materials, model)};
   }
   const bool together = options.what == "auto" && options.from.empty() && !unlabelled && markers &&
                         HasImagesOfTheCamera(experiment);
   if (together) return CalibrateTogether(options, experiment, materials, model);
-  if (unlabelled) return CalibrateFromUnlabelled(options, experiment, asked, model);
-  return CalibrateJointly(options, experiment, options.what == "camera" ? asked : materials, model);
+  if (unlabelled) return {CalibrateFromUnlabelled(options, experiment, asked, model)};
+  return {
+      CalibrateJointly(options, experiment, options.what == "camera" ? asked : materials, model)};
 }
 
 /// A parameter that a joint calibration estimates where its prior standard deviation is not 0.
@@ -206,10 +208,13 @@ int Calibrate(const CalibrateOptions& options) {
   robot::CalibrationFile file;
   data.Run([&](const std::filesystem::path& folder) {
     const auto experiment = experiment::ReadExperiment(folder, app::LoadYaml);
-    file = Find(experiment, options, model.get());
+    const calibration::ModelSnapshot nominal(*model);
+    FoundCalibration found = Find(experiment, options, model.get());
+    nominal.Restore();
     if (options.what != "material") {
-      CalibrateFurtherCameras(options, experiment, model.get(), &file);
+      CalibrateFurtherCameras(options, experiment, model.get(), &found);
     }
+    file = std::move(found.file);
     return app::kExitDone;
   });
   end_on_signal.reset();

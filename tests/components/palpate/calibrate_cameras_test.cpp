@@ -11,6 +11,7 @@
 namespace palpate::command {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// Where config/scenarios/two_cameras.yaml has them, with smaller images and more of the robot.
@@ -86,7 +87,10 @@ TEST_F(CalibrateCameras, BothAreFoundWithinTheirStandardErrorsFromRoughPoses) {
   SimulateScene(kTwoCameras + kTwoHolds);
   options_.camera_pose = geometry::FormatPose(OffBy(0.17, 0.03, front_));
   SetBack(geometry::FormatPose(OffBy(-0.15, 0.03, back_), geometry::PoseStandardError{0.05, 0.2}));
+  testing::internal::CaptureStdout();
   ASSERT_EQ(Calibrate(options_), 0);
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              AllOf(HasSubstr("all cameras in one fit:"), HasSubstr("camera 'back', b_hold: ")));
   const robot::CalibrationFile file = Found();
   ASSERT_TRUE(file.pose);
   ExpectNear(*file.pose, front_);
