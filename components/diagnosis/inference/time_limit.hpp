@@ -38,13 +38,11 @@ class TimeLimit {
   std::function<bool()> stop_requested_;
 };
 
-/// How many of `all` samples the null model is to be fitted to, so that it takes at most a third of
-/// `limit_s` (not positive: no limit). `from_rest_s`: what all its passes over one sample took,
-/// each solved from rest. Near the sample before it, one is solved and linearised in a third of
-/// that (0.2 to 0.3 of it on a trunk of 312 elements). Not below 10: fewer tell nothing.
-inline std::size_t SamplesWithin(double limit_s, double from_rest_s, std::size_t all) {
+/// How many of `all` samples take at most `limit_s` (not positive: no limit) at `each_s`. Not below
+/// 10: fewer tell nothing.
+inline std::size_t SamplesWithin(double limit_s, double each_s, std::size_t all) {
   constexpr std::size_t kFewest = 10;
-  const double affordable = limit_s / from_rest_s;  // a third of the limit, at a third each
+  const double affordable = limit_s / each_s;
   const bool enough = limit_s <= 0.0 || !(affordable < static_cast<double>(all));
   if (enough || all <= kFewest) return all;
   return std::max(kFewest, static_cast<std::size_t>(affordable));
