@@ -70,10 +70,15 @@ CaseKind ParseKind(const std::string& text) {
 
 /// On each robot causes are drawn as large as they are seen on four_leg, and those of chambers on
 /// the pneumatic robots (cause_menu.hpp).
+const std::vector<std::string>& Robots() {
+  static const std::vector<std::string> robots = {"four_leg", "rod", "pneumatic_finger",
+                                                  "pneumatic_arm"};
+  return robots;
+}
+
 void TakeRobot(const std::string& robot, BlindSet* set) {
-  const std::vector<std::string> robots = {"four_leg", "rod", "pneumatic_finger", "pneumatic_arm"};
-  if (!IndexOf(robot, robots))
-    throw InputError("PALPATE_BLIND_ROBOT: " + Unknown("robot", robot, robots));
+  if (robot != "each" && !IndexOf(robot, Robots()))
+    throw InputError("PALPATE_BLIND_ROBOT: " + Unknown("robot", robot, Robots()));
   set->robot = robot;
 }
 
@@ -97,6 +102,36 @@ std::map<std::string, int> WantedCauses(const BlindSet& set, const RobotDescript
 std::string What(const BlindSet& set) {
   if (!set.cause.empty()) return " (" + set.cause + ")";
   return set.kind ? " (" + ToString(*set.kind) + ")" : "";
+}
+
+std::vector<CaseRecord> RunRobot(const BlindSet& set, std::ostream& out) {
+  const SetFolder folder(set.folder);
+  const fs::path robot_file = IsCoarse(set.robot) ? WriteCoarseRobot(set.robot, folder.path())
+                                                  : test_support::RobotFile(set.robot);
+  const std::vector<std::uint64_t> seeds =
+      set.Seeds(robot::ReadRobotFile(robot_file, app::LoadYaml));
+  fmt::print(out,
+             "{} blind cases of {}{} of {} from seed {} on, {} moments each; one again: "
+             "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
+             seeds.size(), set.robot, What(set),
+             set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
+  const CaseRunner runner({.robot_file = robot_file,
+                           .folder = folder.path(),
+                           .keep = folder.keeps(),
+                           .measured = set.measured,
+                           .samples = set.samples,
+                           .minutes = set.minutes});
+  std::vector<CaseRecord> records(seeds.size());
+  std::mutex printing;
+  TwoAtATime([&](std::size_t i) {
+    if (i >= records.size()) return false;
+    records[i] = runner.Run(seeds[i]);
+    const std::lock_guard lock(printing);
+    PrintCase(out, records[i]);
+    return true;
+  });
+  PrintScore(out, Judge(records));
+  return records;
 }
 
 }  // namespace
@@ -136,34 +171,24 @@ std::vector<std::uint64_t> BlindSet::Seeds(const RobotDescription& diagnosed) co
   return seeds;
 }
 
+std::vector<BlindSet> BlindSet::OfRobots() const {
+  if (robot != "each") return {*this};
+  std::vector<BlindSet> sets;
+  for (const std::string& one : Robots()) {
+    sets.push_back(*this);
+    sets.back().robot = one;
+    if (!folder.empty()) sets.back().folder = folder / one;
+  }
+  return sets;
+}
+
 std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
-  const SetFolder folder(set.folder);
-  const fs::path robot_file = IsCoarse(set.robot) ? WriteCoarseRobot(set.robot, folder.path())
-                                                  : test_support::RobotFile(set.robot);
-  const std::vector<std::uint64_t> seeds =
-      set.Seeds(robot::ReadRobotFile(robot_file, app::LoadYaml));
-  fmt::print(out,
-             "{} blind cases of {}{} of {} from seed {} on, {} moments each; one again: "
-             "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
-             seeds.size(), set.robot, What(set),
-             set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
-  const CaseRunner runner({.robot_file = robot_file,
-                           .folder = folder.path(),
-                           .keep = folder.keeps(),
-                           .measured = set.measured,
-                           .samples = set.samples,
-                           .minutes = set.minutes});
-  std::vector<CaseRecord> records(seeds.size());
-  std::mutex printing;
-  TwoAtATime([&](std::size_t i) {
-    if (i >= records.size()) return false;
-    records[i] = runner.Run(seeds[i]);
-    const std::lock_guard lock(printing);
-    PrintCase(out, records[i]);
-    return true;
-  });
-  PrintScore(out, Judge(records));
-  return records;
+  std::vector<CaseRecord> all;
+  for (const BlindSet& of_robot : set.OfRobots()) {
+    const std::vector<CaseRecord> records = RunRobot(of_robot, out);
+    all.insert(all.end(), records.begin(), records.end());
+  }
+  return all;
 }
 
 }  // namespace palpate::blind

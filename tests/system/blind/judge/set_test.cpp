@@ -49,6 +49,19 @@ TEST(BlindSet, HidesAsManyOfEveryCauseAsItIsAskedFor) {
     EXPECT_EQ(DrawCase(seed, robot).effects.front().id, "leak") << seed;
 }
 
+TEST(BlindSet, OfEachRobotHasASetAndAFolderForEveryOne) {
+  const std::vector<BlindSet> one =
+      BlindSet{.cases = 2, .folder = "kept", .robot = "rod"}.OfRobots();
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].folder, "kept");
+  const std::vector<BlindSet> each =
+      BlindSet{.cases = 2, .folder = "kept", .robot = "each"}.OfRobots();
+  ASSERT_EQ(each.size(), 4U);
+  EXPECT_EQ(each[1].robot, "rod");
+  EXPECT_EQ(each[1].folder, "kept/rod");
+  EXPECT_EQ(each[1].cases, 2);
+}
+
 TEST(BlindSet, RefusesACauseThatTheRobotCannotHave) {
   const BlindSet set{.cases = 1, .cause = "leek"};
   EXPECT_THAT([&] { set.Seeds(test_support::ReadRobot("pneumatic_finger")); },
