@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "components/diagnosis/inference/canonical_correlation.hpp"
 #include "components/diagnosis/inference/forward_selection.hpp"
 #include "libs/core/index.hpp"
 
@@ -63,6 +65,23 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
   return exchanges;
 }
 
+/// Of a fault that fits beside all others, in the place of one that is named.
+void KeepAsRival(const Fitter& fitter, int named, int rival, double ln_exchanged,
+                 Selection* selection) {
+  const Fit& best = selection->best;
+  const double likeness = CanonicalCorrelation(fitter.hypotheses(), best.model.All(),
+                                               best.posterior.scale, named, rival);
+  Candidate candidate{.fault = rival,
+                      .canonical_correlation = likeness,
+                      .refined = true,
+                      .in_place_of = named,
+                      .ln_exchanged = ln_exchanged};
+  if (-ln_exchanged >= IndistinguishableWithin(fitter.hypotheses(), named, candidate)) return;
+  std::erase_if(selection->indistinguishable,
+                [&](const Candidate& one) { return one.fault == rival; });
+  selection->indistinguishable.push_back(std::move(candidate));
+}
+
 /// The first of the promising exchanges that keeps its promise. What was named last was chosen
 /// beside all others: it stays.
 void ExchangeOne(const Fitter& fitter, Selection* selection) {
@@ -78,10 +97,16 @@ void ExchangeOne(const Fitter& fitter, Selection* selection) {
                               selection->best);
     if (other.posterior.ln_evidence - before < kSelectionTuning.exchange_refined) continue;
     other = fitter.Complete(std::move(other));
-    if (!other.status.ok() || other.posterior.ln_evidence <= before) continue;
+    if (!other.status.ok()) continue;
     if (!WhyNoFault(fitter.hypotheses(), other.posterior, exchange.other).empty()) continue;
-    choice.fault = exchange.other;
+    const double ln_gain = other.posterior.ln_evidence - before;
+    if (ln_gain <= 0.0) {
+      KeepAsRival(fitter, choice.fault, exchange.other, ln_gain, selection);
+      continue;
+    }
+    const int named = std::exchange(choice.fault, exchange.other);
     selection->best = std::move(other);
+    KeepAsRival(fitter, choice.fault, named, -ln_gain, selection);
     return;
   }
 }
@@ -113,6 +138,17 @@ void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* sele
   }
 }
 
+/// Of an exchange; where it was not simulated, what linear models promise.
+double SimulatedGain(const Exchange& exchange, int named, const Selection& selection) {
+  const auto simulated =
+      std::find_if(selection.indistinguishable.begin(), selection.indistinguishable.end(),
+                   [&](const Candidate& one) {
+                     return one.fault == exchange.other && one.in_place_of == named;
+                   });
+  return simulated == selection.indistinguishable.end() ? exchange.ln_gain
+                                                        : simulated->ln_exchanged;
+}
+
 /// Each against nothing, and against all that could stand in its place.
 void WeighEach(const Fitter& fitter, Selection* selection) {
   const std::vector<Exchange> exchanges = PromisingExchanges(fitter, *selection);
@@ -121,7 +157,7 @@ void WeighEach(const Fitter& fitter, Selection* selection) {
     Choice& choice = selection->named[n];
     double others = std::exp(ln_causes - choice.ln_bayes_factor);
     for (const Exchange& one : exchanges) {
-      if (one.named == n) others += std::exp(one.ln_gain);
+      if (one.named == n) others += std::exp(SimulatedGain(one, choice.fault, *selection));
     }
     choice.probability = 1.0 / (1.0 + others);
   }

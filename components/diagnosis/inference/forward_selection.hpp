@@ -32,7 +32,7 @@ struct SelectionTuning {
   double least_explained = 0.05;    ///< share of the misfit beyond the noise, fitted or left out
   double seen_chi_squared = 5.0;    ///< half chi-squared by which a recording shows a fault
   double exchange_screened = -8.0;  ///< ln BF of an exchange that counts in probabilities
-  double exchange_refined = -3.0;   ///< ln BF of an exchange that is simulated
+  double exchange_refined = -8.0;   ///< ln BF of an exchange that is simulated
   int most_exchanges = 2;           ///< that are simulated for each further fault
 };
 inline constexpr SelectionTuning kSelectionTuning;
@@ -49,6 +49,9 @@ struct Candidate {
   std::string why_not = {};   ///< empty: named
   bool ruled_out = false;     ///< where it fits best it is no fault, or more than any robot has
   std::vector<int> starts = {};  ///< faults of its name to simulate, the most probable first
+  /// Named fault in the place of which it was simulated, beside all others; -1: it was not.
+  int in_place_of = -1;
+  double ln_exchanged = 0.0;  ///< what the evidence of all gained by that
 };
 
 /// `faults`, and one more.

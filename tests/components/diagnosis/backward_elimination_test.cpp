@@ -5,6 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
@@ -51,6 +54,31 @@ TEST_F(BackwardCheck, DropsWhatTheOthersLeaveNoEvidenceFor) {
   EliminateBackward(fitter, kClearEvidence, &selection);
   EXPECT_THAT(selection.best.faults, testing::ElementsAre(right)) << "seed " << kSeed;
   EXPECT_EQ(selection.named.size(), 1U);
+}
+
+/// A small mass somewhere on the body bends it as a heavier body does.
+TEST_F(BackwardCheck, NamesRivalsThatFitAsWellBesideTheOthers) {
+  Measure({{"cable_gain", "cable:up", 0.1}, {"density", "body", 0.22}});
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
+  const int density = Number("density", "body");
+  const int gain = Number("cable_gain", "cable:up");
+  Selection selection = Named(fitter, {density, gain});
+  EliminateBackward(fitter, kClearEvidence, &selection);
+  ASSERT_EQ(selection.named.size(), 2U);
+  const auto payload =
+      std::find_if(selection.indistinguishable.begin(), selection.indistinguishable.end(),
+                   [&](const Candidate& one) {
+                     return hypotheses_.model(one.fault).name() == CauseName{"payload", {"body"}};
+                   });
+  ASSERT_NE(payload, selection.indistinguishable.end()) << "seed " << kSeed;
+  EXPECT_EQ(payload->in_place_of, density);
+  EXPECT_GT(payload->ln_exchanged, -kSelectionTuning.indistinguishable_evidence);
+  EXPECT_LE(payload->ln_exchanged, 0.0);
+  const Fit other =
+      fitter.Complete(fitter.Refine({payload->fault, gain}, fitter.Complete(fitter.AsBuilt())));
+  EXPECT_NEAR(other.posterior.ln_evidence - selection.best.posterior.ln_evidence,
+              payload->ln_exchanged, 0.5);
+  EXPECT_LE(selection.named[0].probability, 1.0 / (1.0 + std::exp(payload->ln_exchanged)));
 }
 
 TEST_F(BackwardCheck, KeepsWhatIsRight) {
