@@ -109,6 +109,7 @@ MarkerSpec ReadMarkers(const ConfigNode& node, bool camera) {
                           : Eigen::Vector3d::Constant(ReadNumber(*sigma, kPositive));
   }
   reader.Read("rate_hz", &markers.rate_hz);
+  reader.Read("missing_share", &markers.missing_share);
   reader.Finish();
   return markers;
 }

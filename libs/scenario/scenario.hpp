@@ -169,6 +169,7 @@ struct Stage {
 struct MarkerSpec {
   Eigen::Vector3d sigma_m{3e-4, 3e-4, 3e-4};  ///< > 0
   double rate_hz = 30.0;
+  double missing_share = 0.0;  ///< [0, 1] of the positions are not seen, drawn by the seed
   /// The depth camera measures the markers, with its errors, and takes no images. Else motion
   /// capture measures them without bias, in the frame of the camera where there is one.
   bool by_depth_camera = false;

@@ -298,7 +298,9 @@ const KeyTable& MarkerSpecKeys() {
                 "It takes no images then."},
                {"sigma_m", value::Either({value::Real(kPositive), value::Vector3(kPositive)}),
                 Default(defaults.sigma_m), "Standard deviation: one number, or `[x, y, z]`."},
-               {"rate_hz", value::Real(kRate), Default(defaults.rate_hz), "Rate."}}};
+               {"rate_hz", value::Real(kRate), Default(defaults.rate_hz), "Rate."},
+               {"missing_share", value::Real(kShare), Default(defaults.missing_share),
+                "Share of the positions that are not seen, each frame and marker by itself."}}};
   return keys;
 }
 

@@ -107,7 +107,10 @@ void RecordingWriter::AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       seen_m[axis] += scenario_.markers->sigma_m[axis] * noise->Normal();
     }
-    frame.positions_m.push_back(seen_m.allFinite() ? std::optional(seen_m) : std::nullopt);
+    const double missing_share = scenario_.markers->missing_share;
+    const bool missing = missing_share > 0.0 && noise->Uniform() < missing_share;
+    const bool seen = !missing && seen_m.allFinite();
+    frame.positions_m.push_back(seen ? std::optional(seen_m) : std::nullopt);
   }
   markers_.frames.push_back(std::move(frame));
 }

@@ -72,6 +72,24 @@ TEST_F(SimulateTest, MarkersHaveTheNoiseThatTheScenarioTells) {
   EXPECT_NEAR(mean.deviation_m.z(), 3e-4, 3e-5);
 }
 
+TEST_F(SimulateTest, OfMarkersThatShareIsMissing) {
+  Scenario(
+      "markers: {sigma_m: 1.0e-4, rate_hz: 1000, missing_share: 0.1}\nrecordings: [{name: a, "
+      "duration_s: 1}]\n");
+  ASSERT_EQ(Run(), 0);
+  int positions = 0;
+  int missing = 0;
+  const experiment::Experiment experiment = Read();
+  for (const experiment::MarkerFrame& frame : experiment.recordings[0].markers->frames) {
+    for (const auto& position_m : frame.positions_m) {
+      ++positions;
+      missing += position_m ? 0 : 1;
+    }
+  }
+  ASSERT_EQ(positions, 1000);
+  EXPECT_NEAR(missing, 0.1 * positions, 5.0 * std::sqrt(0.09 * positions));
+}
+
 TEST_F(SimulateTest, DeclaresHungWeightsInTheTiltedFrameFromWhenTheyHang) {
   ASSERT_EQ(Run(), 0);
   const auto loads = Read().recordings[1].loads;
