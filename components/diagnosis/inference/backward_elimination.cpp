@@ -89,13 +89,13 @@ void ExchangeOne(const Fitter& fitter, Selection* selection) {
   int tried = 0;
   for (const Exchange& exchange : PromisingExchanges(fitter, *selection)) {
     const int most_tried = fitter.IsOutOfTime() ? 1 : kSelectionTuning.most_exchanges;
-    if (exchange.ln_gain < kSelectionTuning.exchange_refined || tried >= most_tried) break;
+    if (tried >= most_tried) break;
     if (exchange.named + 1 == selection->named.size()) continue;
     ++tried;
     Choice& choice = selection->named[exchange.named];
     Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.fault, exchange.other),
                               selection->best);
-    if (other.posterior.ln_evidence - before < kSelectionTuning.exchange_refined) continue;
+    if (other.posterior.ln_evidence - before < kSelectionTuning.exchange_screened) continue;
     other = fitter.Complete(std::move(other));
     if (!other.status.ok()) continue;
     if (!WhyNoFault(fitter.hypotheses(), other.posterior, exchange.other).empty()) continue;
@@ -168,6 +168,11 @@ void WeighEach(const Fitter& fitter, Selection* selection) {
 void EliminateBackward(const Fitter& fitter, double clear_evidence, Selection* selection) {
   ExchangeOne(fitter, selection);
   DropTheUnclear(fitter, clear_evidence, selection);
+  const std::vector<int>& faults = selection->best.faults;
+  std::erase_if(selection->indistinguishable, [&](const Candidate& rival) {
+    return rival.in_place_of >= 0 &&
+           std::find(faults.begin(), faults.end(), rival.in_place_of) == faults.end();
+  });
   WeighEach(fitter, selection);
 }
 

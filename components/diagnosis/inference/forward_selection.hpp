@@ -31,8 +31,7 @@ struct SelectionTuning {
   int rounds_to_compare = 3;        ///< simulations of each before the best goes on
   double least_explained = 0.05;    ///< share of the misfit beyond the noise, fitted or left out
   double seen_chi_squared = 5.0;    ///< half chi-squared by which a recording shows a fault
-  double exchange_screened = -8.0;  ///< ln BF of an exchange that counts in probabilities
-  double exchange_refined = -8.0;   ///< ln BF of an exchange that is simulated
+  double exchange_screened = -8.0;  ///< ln BF of an exchange that counts and may be simulated
   int most_exchanges = 2;           ///< that are simulated for each further fault
 };
 inline constexpr SelectionTuning kSelectionTuning;

@@ -19,11 +19,8 @@ namespace {
 /// that others are named beside.
 bool IsIndistinguishable(const Fitter& fitter, const Selection& selection, const Candidate& rival) {
   const std::vector<int>& faults = selection.best.faults;
-  const auto is_named = [&](int fault) {
-    return std::find(faults.begin(), faults.end(), fault) != faults.end();
-  };
-  if (is_named(rival.fault)) return false;
-  if (faults.size() < 2 || is_named(rival.in_place_of)) return true;
+  if (std::find(faults.begin(), faults.end(), rival.fault) != faults.end()) return false;
+  if (faults.size() < 2 || rival.in_place_of >= 0) return true;
   return std::any_of(faults.begin(), faults.end(), [&](int named) {
     std::vector<int> others = faults;
     std::replace(others.begin(), others.end(), named, rival.fault);

@@ -81,6 +81,16 @@ TEST_F(BackwardCheck, NamesRivalsThatFitAsWellBesideTheOthers) {
   EXPECT_LE(selection.named[0].probability, 1.0 / (1.0 + std::exp(payload->ln_exchanged)));
 }
 
+TEST_F(BackwardCheck, DropsTheRivalsOfWhatItDrops) {
+  Measure({{"cable_gain", "cable:up", 0.1}, {"density", "body", 0.15}});
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
+  const int gain = Number("cable_gain", "cable:up");
+  Selection selection = Named(fitter, {Number("density", "body"), gain});
+  EliminateBackward(fitter, kClearEvidence, &selection);
+  EXPECT_THAT(selection.best.faults, testing::ElementsAre(gain)) << "seed " << kSeed;
+  EXPECT_THAT(selection.indistinguishable, testing::IsEmpty());
+}
+
 TEST_F(BackwardCheck, KeepsWhatIsRight) {
   Measure({{"cable_gain", "cable:up", 0.1}, {"density", "body", 0.3}});
   const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
