@@ -145,15 +145,13 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
         TakeFullStep(state) &&
         linearisation_.UpdateResidual(state->x_m, state->multipliers_N, loads.external_force_N)
             .ok();
-    const double after = linearisation_.residual_N().norm() /
-                         ForceScale_N(linearisation_, loads, state->multipliers_N);
-    if (moved && after < settings_.keep_tangent_below * before) return true;
+    if (moved && RelativeResidual(loads, *state) < settings_.keep_tangent_below * before)
+      return true;
     *state = start;
     return false;
   };
-  const bool has_tangent =
-      steps == Steps::kFull && settings_.keep_tangent_below > 0.0 && step_.HasTangentFor(loads);
-  bool may_keep = has_tangent && helps();
+  bool may_keep = steps == Steps::kFull && settings_.keep_tangent_below > 0.0 &&
+                  (step_.HasTangentFor(loads) ? helps() : IsBalanced(loads, *state));
   for (int iteration = 0; iteration <= kMostStepsPerTangent * most; ++iteration) {
     if (Status status = Linearise(loads, *state, may_keep, result); !status.ok()) return status;
     result->constraint_error_m = ConstraintError(loads, *state);
@@ -187,8 +185,7 @@ Status StaticSolver::Linearise(const LoadState& loads, const StaticState& state,
                                StaticResult* result) {
   const auto measure = [&] {
     result->residual_N = linearisation_.residual_N().norm();
-    result->residual_relative =
-        result->residual_N / ForceScale_N(linearisation_, loads, state.multipliers_N);
+    result->residual_relative = RelativeResidual(loads, state);
   };
   if (may_keep && settings_.keep_tangent_below > 0.0) {
     const double before = result->residual_relative;
@@ -253,12 +250,24 @@ bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, Stat
   return false;
 }
 
+double StaticSolver::RelativeResidual(const LoadState& loads, const StaticState& state) const {
+  return linearisation_.residual_N().norm() /
+         ForceScale_N(linearisation_, loads, state.multipliers_N);
+}
+
+bool StaticSolver::IsBalanced(const LoadState& loads, const StaticState& state) {
+  return !linearisation_.shifted() &&
+         linearisation_.UpdateResidual(state.x_m, state.multipliers_N, loads.external_force_N)
+             .ok() &&
+         RelativeResidual(loads, state) <= settings_.relative_tolerance &&
+         ConstraintError(loads, state) <= settings_.constraint_tolerance_m;
+}
+
 bool StaticSolver::HalvesTheResidual(const LoadState& loads, double residual_before,
                                      double error_before) {
   const Status status =
       linearisation_.UpdateResidual(trial_.x_m, trial_.multipliers_N, loads.external_force_N);
-  const double residual = linearisation_.residual_N().norm() /
-                          ForceScale_N(linearisation_, loads, trial_.multipliers_N);
+  const double residual = RelativeResidual(loads, trial_);
   return status.ok() && residual <= 0.5 * residual_before + 1e-12 &&
          ConstraintError(loads, trial_) <= 0.5 * error_before + settings_.constraint_tolerance_m;
 }

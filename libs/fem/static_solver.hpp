@@ -79,6 +79,10 @@ class StaticSolver {
   LoadState Interpolate(const StaticState& start, const LoadState& target, double fraction) const;
   void ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* x_m) const;
   bool TakeStep(const LoadState& loads, double residual_before, StaticState* state);
+  /// Of the last residual.
+  double RelativeResidual(const LoadState& loads, const StaticState& state) const;
+  /// Whether no step is needed. Not known near a state whose factor was shifted.
+  bool IsBalanced(const LoadState& loads, const StaticState& state);
   bool HalvesTheResidual(const LoadState& loads, double residual_before, double error_before);
   double ConstraintError(const LoadState& loads, const StaticState& state) const;
   double Merit(const LoadState& loads, const Eigen::VectorXd& x_m, double* min_J) const;

@@ -169,6 +169,24 @@ TEST(StaticSolver, KeepsATangentForTheNextBalanceNearby) {
   EXPECT_EQ(bar.linearisation.factor_count(), factors + 2);
 }
 
+TEST(StaticSolver, NeedsNoTangentWhereTheBodyIsBalanced) {
+  StaticSettings keeping;
+  keeping.keep_tangent_below = 0.2;
+  Bar bar(kStable, keeping);
+  bar.PullTip({0.0, 0.02, -0.05});
+  ASSERT_TRUE(bar.solver.Solve(bar.target, &bar.state).status.ok());
+  const Eigen::VectorXd balanced_m = bar.state.x_m;
+  ASSERT_TRUE(
+      bar.linearisation
+          .Update(bar.body.rest_m(), bar.state.multipliers_N, bar.state.loads.external_force_N)
+          .ok());
+  const int factors = bar.linearisation.factor_count();
+  const StaticResult again = bar.solver.Solve(bar.target, &bar.state);
+  ASSERT_TRUE(again.status.ok()) << again.status.message();
+  EXPECT_EQ(bar.state.x_m, balanced_m);
+  EXPECT_EQ(bar.linearisation.factor_count(), factors);
+}
+
 TEST(StaticSolver, SaysThatItDidNotConverge) {
   StaticSettings one_step;
   one_step.max_newton_iterations = 1;
