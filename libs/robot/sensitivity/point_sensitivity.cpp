@@ -31,6 +31,16 @@ Status PointSensitivity::Compute(const std::vector<ActuatorCommand>& cables,
   return status;
 }
 
+Status PointSensitivity::ComputeAgain(const std::vector<ActuatorCommand>& cables,
+                                      const fem::StaticState& state,
+                                      std::span<const ParameterPtr> parameters) {
+  point_.Set(cables, state);
+  cables_.Evaluate();
+  Status status = Describe(parameters);
+  if (!status.ok()) Clear();
+  return status;
+}
+
 void PointSensitivity::Clear() {
   motion_m_.resize(rows_ - model_.ActuatorCount(), 0);
   length_m_.resize(model_.ActuatorCount(), 0);
@@ -44,6 +54,10 @@ Status PointSensitivity::TryCompute(const std::vector<ActuatorCommand>& cables,
   point_.Set(cables, state);
   cables_.Evaluate();
   if (Status status = SolveRows(); !status.ok()) return status;
+  return Describe(parameters);
+}
+
+Status PointSensitivity::Describe(std::span<const ParameterPtr> parameters) {
   DescribeParameters(parameters);
   return PullTautCables();
 }

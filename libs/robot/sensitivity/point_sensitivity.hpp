@@ -38,6 +38,10 @@ class PointSensitivity {
   /// As SensitivitySolver::Compute, with the same refusals.
   Status Compute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                  std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
+  /// The same at the state of the last Compute, which was ok, with the rows and the tangent that it
+  /// had: nothing is solved again. Dead loads and commands may be others.
+  Status ComputeAgain(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
+                      std::span<const ParameterPtr> parameters);
 
   int ParameterCount() const { return static_cast<int>(motion_m_.cols()); }
 
@@ -50,6 +54,7 @@ class PointSensitivity {
  private:
   Status TryCompute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                     std::span<const ParameterPtr> parameters, Factor factor);
+  Status Describe(std::span<const ParameterPtr> parameters);
   Status SolveRows();
   void FillRows();
   Status CoupleFriction();

@@ -57,6 +57,22 @@ TEST_P(OfPoints, AreThoseOfTheWholeBody) {
   }
 }
 
+TEST_P(OfPoints, OfAStateThatIsKnownNeedNoFactor) {
+  for (CableFriction& friction : robot_.friction) friction.coefficient = 0.3;
+  Balance balance = Solve(robot_);
+  const std::vector<ParameterPtr> parameters = Many(robot_.body);
+  PointSensitivity adjoint(*balance.model, MarkersOf(robot_.body));
+  ASSERT_TRUE(adjoint.Compute(robot_.cables, balance.state, parameters).ok());
+  const Eigen::MatrixXd motion_m = adjoint.motion_m();
+  const Eigen::MatrixXd tension_N = adjoint.tension_N();
+  const int factors = balance.model->linearisation().factor_count();
+  const std::span<const ParameterPtr> last = std::span(parameters).last(5);
+  ASSERT_TRUE(adjoint.ComputeAgain(robot_.cables, balance.state, last).ok());
+  EXPECT_EQ(adjoint.motion_m(), motion_m.rightCols(5));
+  EXPECT_EQ(adjoint.tension_N(), tension_N.rightCols(5));
+  EXPECT_EQ(balance.model->linearisation().factor_count(), factors);
+}
+
 /// A force at one point moves another as a force there moves the first (Maxwell, Betti), and so do
 /// both methods in turn.
 TEST_P(OfPoints, MoveEachOtherAlike) {
