@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -52,23 +54,22 @@ class CableGuides final : public FaultModel {
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const FaultContext& at) const override {
-    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(parameter);
     const bool by_tension = at.observed.timeline.by_tension[At(index_)];
     const robot::BodyCable& cable = at.hypothesis.body.cables[At(index_)];
+    const std::shared_ptr<const EyeletDirections> directions =
+        DirectionsAt(z, at.hypothesis.places);
     auto sum = std::make_unique<SumOfParameters>();
     double longer = 0.0;  // the path at which the actuator was zeroed, per metre of the shift
     Eigen::Vector3d before_m = cable.pull_point_m;
     Eigen::Vector3d before_along = Eigen::Vector3d::Zero();
     for (std::size_t e = 0; e < rest_m_.size(); ++e) {
-      fem::InterpolationWeights along =
-          robot::EyeletWeightsAlong(*at.hypothesis.places, rest_m_[e] + z, radius_m_, direction);
+      const fem::InterpolationWeights& along = directions->along[At(parameter)][e];
       const Eigen::Vector3d here_m = cable.eyelets[e].weights.Position(at.hypothesis.assembled_m);
       const Eigen::Vector3d here_along = along.Position(at.hypothesis.assembled_m);
       longer += (here_m - before_m).normalized().dot(here_along - before_along);
       before_m = here_m;
       before_along = here_along;
-      sum->Add(1.0, robot::EyeletMove(index_, static_cast<int>(e), std::move(along),
-                                      robot::CableZero::kKept));
+      sum->Add(1.0, robot::EyeletMove(index_, static_cast<int>(e), along, robot::CableZero::kKept));
     }
     if (by_tension) return sum;
     Eigen::VectorXd change_m = Eigen::VectorXd::Zero(std::ssize(at.hypothesis.body.cables));
@@ -78,6 +79,32 @@ class CableGuides final : public FaultModel {
   }
 
  private:
+  /// How the eyelets' weights change along x, y and z, [3][eyelets].
+  struct EyeletDirections {
+    Eigen::VectorXd shift_m;
+    std::shared_ptr<const fem::PointLocator> places;
+    std::array<std::vector<fem::InterpolationWeights>, 3> along;
+  };
+
+  /// Kept: all samples of a hypothesis need the same, from several threads.
+  std::shared_ptr<const EyeletDirections> DirectionsAt(
+      const Eigen::VectorXd& shift_m,
+      const std::shared_ptr<const fem::PointLocator>& places) const {
+    const std::lock_guard lock(mutex_);
+    if (kept_ && kept_->places == places && kept_->shift_m == shift_m) return kept_;
+    auto directions = std::make_shared<EyeletDirections>();
+    directions->shift_m = shift_m;
+    directions->places = places;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Eigen::Vector3d& rest_m : rest_m_) {
+        directions->along[At(axis)].push_back(robot::EyeletWeightsAlong(
+            *places, rest_m + shift_m, radius_m_, Eigen::Vector3d::Unit(axis)));
+      }
+    }
+    kept_ = directions;
+    return directions;
+  }
+
   static FaultParameter Shift(const std::string& name) {
     return {.name = name, .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestGuides_m};
   }
@@ -85,6 +112,8 @@ class CableGuides final : public FaultModel {
   int index_;
   double radius_m_;
   std::vector<Eigen::Vector3d> rest_m_;  ///< [eyelets] where the robot file has them
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const EyeletDirections> kept_;
 };
 
 }  // namespace
