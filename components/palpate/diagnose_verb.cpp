@@ -193,10 +193,11 @@ diagnosis::Diagnosis DiagnoseData(const fs::path& folder, const DiagnoseOptions&
                             report);
     if (!diagnosis.result.interrupted && !diagnosis.result.causes.empty()) {
       report(steps - 1, steps, "estimating the forces at known loads");
-      diagnosis.result.force_error = MeasureForceError(robot, diagnosis, experiment, [&] {
-        const double longest_s = 60.0 * options.most_minutes;
-        return stop.Requested() || (longest_s > 0.0 && SecondsSince(begin) > longest_s);
-      });
+      diagnosis.result.force_error =
+          MeasureForceError(robot, diagnosis, experiment, options.threads, [&] {
+            const double longest_s = 60.0 * options.most_minutes;
+            return stop.Requested() || (longest_s > 0.0 && SecondsSince(begin) > longest_s);
+          });
     }
     AddSensors(sensors, &diagnosis);
     diagnosis.result.data_hash = HashOf(experiment);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -40,7 +41,7 @@ diagnosis::ForceError Compare(const KnownLoadErrors& before, const KnownLoadErro
 
 diagnosis::ForceError MeasureForceError(const robot::RobotDescription& robot,
                                         const diagnosis::Diagnosis& diagnosis,
-                                        const experiment::Experiment& experiment,
+                                        const experiment::Experiment& experiment, int threads,
                                         const std::function<bool()>& stop_requested) {
   const bool in_files = diagnosis.not_in_files.size() < diagnosis.result.causes.size();
   if (!in_files ||
@@ -48,9 +49,14 @@ diagnosis::ForceError MeasureForceError(const robot::RobotDescription& robot,
     return {};
   }
   try {
-    return Compare(
-        EstimateKnownLoads(robot, std::nullopt, experiment, stop_requested),
-        EstimateKnownLoads(diagnosis.extended, diagnosis.calibration, experiment, stop_requested));
+    std::future<KnownLoadErrors> before =
+        std::async(threads > 1 ? std::launch::async : std::launch::deferred, [&] {
+          return EstimateKnownLoads(robot, std::nullopt, experiment, Progress::kSilent,
+                                    stop_requested);
+        });
+    const KnownLoadErrors after = EstimateKnownLoads(
+        diagnosis.extended, diagnosis.calibration, experiment, Progress::kReported, stop_requested);
+    return Compare(before.get(), after);
   } catch (const std::runtime_error& error) {
     diagnosis::ForceError unknown;
     unknown.why_not = error.what();

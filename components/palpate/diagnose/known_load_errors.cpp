@@ -35,12 +35,14 @@ struct Felt {
   robot::CalibrationFile calibration;  ///< of no robot: none was given
   const EstimateSettings& settings;
   const std::function<bool()>& stop_requested;
-  FrameProgress* progress = nullptr;
+  FrameProgress* progress = nullptr;  ///< null: no progress is told
 };
 
 offline::ReplayLimits LimitsOf(const Felt& felt, double duration_s) {
   return {duration_s > 0.0 ? kMostFrames / duration_s : 0.0, felt.stop_requested,
-          [progress = felt.progress](int done, int total) { progress->Update(done, total); }};
+          [progress = felt.progress](int done, int total) {
+            if (progress != nullptr) progress->Update(done, total);
+          }};
 }
 
 /// Zero where nothing acts; nothing where it is not observable.
@@ -131,7 +133,7 @@ bool HasMeasuredLoads(const experiment::Recording& recording) {
 
 KnownLoadErrors EstimateKnownLoads(const robot::RobotDescription& robot,
                                    const std::optional<robot::CalibrationFile>& calibration,
-                                   const experiment::Experiment& experiment,
+                                   const experiment::Experiment& experiment, Progress progress,
                                    const std::function<bool()>& stop_requested) {
   const EstimateSettings settings = ReadEstimateSettings(experiment, {}, {}, {});
   robot::RobotModel model(robot::BuildRobotBody(robot), fem::StaticSettings{},
@@ -142,13 +144,13 @@ KnownLoadErrors EstimateKnownLoads(const robot::RobotDescription& robot,
     offline::TakePoses(*calibration, &corrected);
     offline::CorrectPressures(*calibration, &corrected);
   }
-  FrameProgress progress(model.body());
+  FrameProgress lines(model.body());
   const Felt felt{.experiment = corrected,
                   .model = &model,
                   .calibration = calibration.value_or(robot::CalibrationFile()),
                   .settings = settings,
                   .stop_requested = stop_requested,
-                  .progress = &progress};
+                  .progress = progress == Progress::kReported ? &lines : nullptr};
   KnownLoadErrors errors;
   std::vector<PlannedRecording> from_images;
   std::optional<offline::MarkerTare> tare;

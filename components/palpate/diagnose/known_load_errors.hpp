@@ -22,6 +22,9 @@ using KnownLoadErrors = std::map<std::pair<std::string, double>, Eigen::VectorXd
 /// Whether a recording has known loads, and markers or images that tell them.
 bool HasMeasuredLoads(const experiment::Recording& recording);
 
+/// Whether one estimation tells how far it is: of two at once one does.
+enum class Progress { kReported, kSilent };
+
 /// Errors of the forces that one robot feels at known loads, whose places are given, while it is to
 /// be steady. From markers, where a recording has them, directions are given, too; else from
 /// images. Frames in which a force is not observable are left out. Ends early where
@@ -29,7 +32,7 @@ bool HasMeasuredLoads(const experiment::Recording& recording);
 /// images that do not fit the robot.
 KnownLoadErrors EstimateKnownLoads(const robot::RobotDescription& robot,
                                    const std::optional<robot::CalibrationFile>& calibration,
-                                   const experiment::Experiment& experiment,
+                                   const experiment::Experiment& experiment, Progress progress,
                                    const std::function<bool()>& stop_requested);
 
 }  // namespace palpate::command

@@ -196,19 +196,19 @@ TEST_F(ExtendedRobot, GainsInForcesAtKnownLoads) {
   diagnosis::Diagnosis diagnosis;
   diagnosis.extended = read(Robot(kFriction));
   auto experiment = experiment::ReadExperiment(folder_ / "exp", app::LoadYaml);
-  const auto none = MeasureForceError(as_built, diagnosis, experiment, {});
+  const auto none = MeasureForceError(as_built, diagnosis, experiment, 2, {});
   EXPECT_EQ(none.forces, 0) << "no cause was named";
   diagnosis.result.causes.resize(1);
-  const auto error = MeasureForceError(as_built, diagnosis, experiment, {});
+  const auto error = MeasureForceError(as_built, diagnosis, experiment, 2, {});
   EXPECT_EQ(error.recordings, 1);
   EXPECT_GT(error.forces, 30);
   EXPECT_LT(error.after_N, 0.6 * error.before_N);
   diagnosis.not_in_files = {"a cause that no file holds"};
-  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, {}).forces, 0);
+  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, 2, {}).forces, 0);
   diagnosis.not_in_files.clear();
   // A force on the clamp moves nothing.
   for (auto& load : experiment.recordings[0].loads) load.position_m = {0.0, 0.01, 0.01};
-  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, {}).forces, 0);
+  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, 2, {}).forces, 0);
 }
 
 /// The keys of the robot file and the hidden effects of the same size make the same data.

@@ -59,13 +59,13 @@ TEST(ForceGain, IsMeasuredFromImages) {
   diagnosis.result.causes.resize(1);
   diagnosis.extended = as_built;
   diagnosis.extended.material.youngs_modulus_Pa = kTrueModulus_Pa;
-  const auto error = MeasureForceError(as_built, diagnosis, experiment, {});
+  const auto error = MeasureForceError(as_built, diagnosis, experiment, 2, {});
   EXPECT_EQ(error.why_not, "");
   EXPECT_EQ(error.recordings, 1);
   EXPECT_GE(error.forces, 8);
   EXPECT_LT(error.after_N, 0.7 * error.before_N);
   experiment.T_robot_camera.reset();
-  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, {}).forces, 0);
+  EXPECT_EQ(MeasureForceError(as_built, diagnosis, experiment, 2, {}).forces, 0);
 }
 
 }  // namespace
