@@ -25,12 +25,20 @@ class DriveDistance {
   double ToBegin(std::size_t from, std::size_t to) const {
     return (middle_.col(ToIndex(from)) - begin_.col(ToIndex(to))).norm();
   }
+  /// From where nothing is driven, and nothing bent, to where `to` begins.
+  double FromUndeformed(std::size_t to) const {
+    return begin_.col(ToIndex(to)).head(actuators_).norm();
+  }
   /// From middle to middle.
   double Between(std::size_t a, std::size_t b) const {
     return (middle_.col(ToIndex(a)) - middle_.col(ToIndex(b))).norm();
   }
+  /// The samples in another order: after the one that is driven least always the one that is
+  /// nearest to any before it (Prim's algorithm for the minimum spanning tree).
+  std::vector<std::size_t> FromNearToFar(const std::vector<std::size_t>& samples) const;
 
  private:
+  Eigen::Index actuators_ = 0;
   Eigen::MatrixXd begin_;   ///< [actuators and a rotation x samples]
   Eigen::MatrixXd middle_;  ///< as begin_
 };

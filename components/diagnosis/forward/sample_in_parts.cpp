@@ -13,10 +13,9 @@ namespace {
 
 /// Which cables pull, and whether the body is at an obstacle.
 std::vector<bool> WhatHolds(const HeldShape& shape, int cables) {
-  constexpr double kNothing_N = 1e-6;
   std::vector<bool> holds{shape.AtObstacle()};
   for (const double tension_N : shape.state.multipliers_N.head(cables)) {
-    holds.push_back(tension_N > kNothing_N);
+    holds.push_back(tension_N > HeldShape::kNothing_N);
   }
   return holds;
 }

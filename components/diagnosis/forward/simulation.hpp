@@ -17,6 +17,8 @@ namespace palpate::diagnosis {
 
 /// A shape of the body and what holds it.
 struct HeldShape {
+  /// A cable that pulls by no more holds nothing.
+  static constexpr double kNothing_N = 1e-6;
   double share = 1.0;    ///< of a sample's frames that it stands for
   std::size_t part = 0;  ///< of its parts, in which it is
   fem::StaticState state;

@@ -104,7 +104,7 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
       simulation->at_rest = solver.Rest();
     }
     StartShapes starts(distance);
-    for (const std::size_t s : share) {
+    for (const std::size_t s : is_near ? share : distance.FromNearToFar(share)) {
       SimulatedSample& sample = simulation->samples[s];
       if (failed && is_near) {
         sample.status = {StatusCode::kNotConverged, "another sample could not be simulated"};
@@ -125,7 +125,7 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
         solve();
       }
       if (sample.status.ok()) {
-        starts.Learn(s, was.middle.state.x_m, sample.middle);
+        starts.Learn(s, was.middle, sample.middle);
       } else {
         failed = true;
       }

@@ -20,6 +20,9 @@ struct StartShapesTuning {
   double alike = 0.1;
   /// Variance of what one sample moves by otherwise. Larger: near samples tell less.
   double own = 1e-4;
+  /// Of DriveDistance: what is nearer moves by the same. Commands that are held are read with about
+  /// so much noise. Larger: starts of samples that differ err more.
+  double same = 2e-3;
   /// Of the body's diagonal: a node that moves by less is no reason to begin elsewhere. Robots that
   /// differ by so little err alike then, so that their difference does not. Larger: more
   /// iterations.
@@ -33,23 +36,31 @@ class StartShapes {
   explicit StartShapes(const DriveDistance& distance, const StartShapesTuning& tuning = {})
       : distance_(distance), tuning_(tuning) {}
 
-  /// Of a sample without a shape: that of the sample from which it is nearest. Of one that has the
-  /// shape of another robot: that, moved as the others have moved (Gaussian process regression over
-  /// their drive, Rasmussen and Williams 2006, eq. 2.23). False: it stays as it is.
+  /// Of a sample without a shape: that of the sample from which it is nearest, unless the
+  /// undeformed body is nearer. Of one that has the shape of another robot: that, moved as one of
+  /// the same drive has moved, or else as the others have (Gaussian process regression over their
+  /// drive, Rasmussen and Williams 2006, eq. 2.23). False: it stays as it is.
   bool Begin(std::size_t s, const std::vector<SimulatedSample>& samples, HeldShape* shape) const;
 
-  /// Sample `s` came to balance, which was sought first at `began_m`, empty: nowhere, before Begin.
-  void Learn(std::size_t s, const Eigen::VectorXd& began_m, const HeldShape& shape);
+  /// Sample `s` came to balance in `now`; `was` is its shape before Begin, which may be none.
+  void Learn(std::size_t s, const HeldShape& was, const HeldShape& now);
 
  private:
   double Covariance(std::size_t a, std::size_t b) const;
+  /// Of a sample, from one robot to another.
+  struct Move {
+    std::size_t sample = 0;
+    fem::StaticState was;
+    fem::StaticState now;
+    Eigen::VectorXd nodes_m;  ///< moved by
+  };
+  const Move* OfSameDrive(std::size_t s) const;
   Eigen::VectorXd MovedBy_m(std::size_t s) const;
 
   const DriveDistance& distance_;
   StartShapesTuning tuning_;
   std::vector<std::size_t> balanced_;
-  std::vector<std::size_t> moved_;
-  std::vector<Eigen::VectorXd> moved_m_;  ///< [moved_]
+  std::vector<Move> moves_;
 };
 
 }  // namespace palpate::diagnosis

@@ -85,44 +85,63 @@ class Distance {
   /// `as_in_file`.
   Distance(const robot::RobotBody& body, const Telling& telling, int threads, SurfaceSource* source,
            const ModelHypothesis& as_in_file)
-      : telling_(telling.observed), surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
+      : telling_(telling.observed),
+        all_(telling_, threads),
+        surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
     for (const Sample& sample : telling_.samples) {
       ObservedExperiment& one = alone_.emplace_back(telling_);
       one.samples = {sample};
       simulators_.emplace_back(one, threads);
     }
     if (source == nullptr) return;
-    const Simulator simulator(telling_, threads);
     SurfaceMatcher matcher(body);
-    matcher.Read(telling_, simulator.Shapes(as_in_file, simulator.Run(as_in_file)), source);
+    matcher.Read(telling_, all_.Shapes(as_in_file, all_.Run(as_in_file)), source);
     clouds_ = matcher.clouds();
   }
 
-  /// Nothing where it cannot be simulated, or once the samples so far are off by `most_m2` in the
-  /// sum. A robot whose cables are exchanged is far off in the first sample that pulls one: the
-  /// others, slow to find, are not needed.
-  std::optional<Simulated> Of(const ModelHypothesis& hypothesis,
-                              double most_m2 = std::numeric_limits<double>::infinity()) const {
+  /// Of all samples, shared by threads. Nothing where it cannot be simulated.
+  std::optional<Simulated> Of(const ModelHypothesis& hypothesis) const {
+    const Simulation simulation = all_.Run(hypothesis);
+    if (!simulation.status.ok()) return std::nullopt;
+    std::vector<ShapesInTime> shapes;
+    if (!clouds_.empty()) shapes = all_.Shapes(hypothesis, simulation);
+    Simulated robot;
+    for (std::size_t s = 0; s < telling_.samples.size(); ++s)
+      Add(simulation.samples[s], shapes.empty() ? nullptr : &shapes[s], s, &robot);
+    return robot;
+  }
+
+  /// Nothing, either, once the samples so far are off by `most_m2` in the sum. A robot whose cables
+  /// are exchanged is far off in the first sample that pulls one: the others, slow to find, are not
+  /// needed.
+  std::optional<Simulated> IfNearer(const ModelHypothesis& hypothesis, double most_m2) const {
     Simulated robot;
     for (std::size_t s = 0; s < alone_.size(); ++s) {
       const Simulation simulation = simulators_[s].Run(hypothesis);
       if (!simulation.status.ok()) return std::nullopt;
-      robot.shapes_m.push_back(simulation.samples.front().middle.state.x_m);
-      const std::vector<double> distances_m =
-          clouds_.empty() ? OfMarkers(simulation.samples.front(), telling_.samples[s])
-                          : OfCloud(simulators_[s].Shapes(hypothesis, simulation).front(), s);
-      double squares_m2 = 0.0;
-      for (const double distance_m : distances_m)
-        squares_m2 += std::pow(std::min(distance_m, kFarthestMarker_m), 2);
-      robot.squares_m2.push_back(squares_m2);
-      robot.points.push_back(static_cast<double>(distances_m.size()));
-      robot.sum_m2 += squares_m2;
+      std::vector<ShapesInTime> shapes;
+      if (!clouds_.empty()) shapes = simulators_[s].Shapes(hypothesis, simulation);
+      Add(simulation.samples.front(), shapes.empty() ? nullptr : &shapes.front(), s, &robot);
       if (robot.sum_m2 > most_m2) return std::nullopt;
     }
     return robot;
   }
 
  private:
+  /// `shapes`: of the sample, or null, where no depth frames were read.
+  void Add(const SimulatedSample& simulated, const ShapesInTime* shapes, std::size_t s,
+           Simulated* robot) const {
+    robot->shapes_m.push_back(simulated.middle.state.x_m);
+    const std::vector<double> distances_m =
+        shapes == nullptr ? OfMarkers(simulated, telling_.samples[s]) : OfCloud(*shapes, s);
+    double squares_m2 = 0.0;
+    for (const double distance_m : distances_m)
+      squares_m2 += std::pow(std::min(distance_m, kFarthestMarker_m), 2);
+    robot->squares_m2.push_back(squares_m2);
+    robot->points.push_back(static_cast<double>(distances_m.size()));
+    robot->sum_m2 += squares_m2;
+  }
+
   static std::vector<double> OfMarkers(const SimulatedSample& simulated, const Sample& sample) {
     std::vector<double> distances_m;
     for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
@@ -149,6 +168,7 @@ class Distance {
   }
 
   const ObservedExperiment& telling_;
+  Simulator all_;
   std::deque<ObservedExperiment> alone_;  ///< by sample; referred to by its simulator
   std::deque<Simulator> simulators_;
   mutable geometry::SurfaceIndex surface_;  ///< moved to the shape that it is asked about
@@ -165,7 +185,8 @@ NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperi
   const Distance distance(body, telling, threads, source, nearest.hypothesis);
   const auto begin = std::chrono::steady_clock::now();
   const std::optional<Simulated> as_in_file = distance.Of(nearest.hypothesis);
-  nearest.sample_s = SecondsSince(begin) / static_cast<double>(telling.driven.size());
+  const auto samples = static_cast<double>(telling.driven.size());
+  nearest.sample_s = SecondsSince(begin) / samples * std::min<double>(threads, samples);
   if (!as_in_file) return nearest;
   if (as_in_file->WorstMeanSquare_m2() < kNear * BetweenMostAlike_m2(telling, *as_in_file))
     return nearest;
@@ -177,7 +198,7 @@ NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperi
   for (const FaultModelPtr& fault : far_off) {
     ModelHypothesis hypothesis = NominalHypothesis(body, observed);
     fault->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
-    const std::optional<Simulated> other = distance.Of(hypothesis, least_m2);
+    const std::optional<Simulated> other = distance.IfNearer(hypothesis, least_m2);
     if (!other || !(other->sum_m2 < least_m2) || !IsClearlyNearer(*other, *as_in_file)) continue;
     least_m2 = other->sum_m2;
     nearest.hypothesis = std::move(hypothesis);

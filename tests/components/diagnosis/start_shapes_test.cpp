@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace palpate::diagnosis {
@@ -80,6 +81,37 @@ TEST_F(StartShapesTest, IsThatOfTheNearestDrive) {
   EXPECT_EQ(shape.state.x_m, samples[2].middle.state.x_m);
 }
 
+TEST_F(StartShapesTest, IsTheUndeformedBodyWhereThatIsNearer) {
+  Add(0.0, 0.0);
+  Add(0.01, 0.0);
+  Add(0.0, 2.0);
+  const DriveDistance distance(observed_, parts_);
+  std::vector<SimulatedSample> samples(3);
+  samples[1] = Balanced(0.01, 1.0);
+  StartShapes starts(distance);
+  starts.Learn(1, {}, samples[1].middle);
+  HeldShape shape;
+  EXPECT_FALSE(starts.Begin(2, samples, &shape));
+  EXPECT_EQ(shape.state.x_m.size(), 0);
+}
+
+/// Two ways from where nothing is driven, each sample after one that is near.
+TEST_F(StartShapesTest, AreOfSamplesFromNearToFar) {
+  for (const auto& [first_m, second_m] : std::vector<std::pair<double, double>>{{0.01, 0.0},
+                                                                                {0.0, 2.0},
+                                                                                {0.006, 0.0},
+                                                                                {0.0, 1.1},
+                                                                                {0.003, 0.0},
+                                                                                {0.0, 0.0},
+                                                                                {0.003, 0.0}})
+    Add(first_m, second_m);
+  const DriveDistance distance(observed_, parts_);
+  EXPECT_EQ(distance.FromNearToFar({0, 1, 2, 3, 4, 5, 6}),
+            (std::vector<std::size_t>{5, 4, 6, 2, 0, 3, 1}));
+  EXPECT_EQ(distance.FromNearToFar({1, 3}), (std::vector<std::size_t>{3, 1}));
+  EXPECT_TRUE(distance.FromNearToFar({}).empty());
+}
+
 /// A body that is 10 % stiffer than the one that was simulated before.
 TEST_F(StartShapesTest, MovesAsTheOthersMoved) {
   constexpr double kStiffer = 1.1;
@@ -91,12 +123,39 @@ TEST_F(StartShapesTest, MovesAsTheOthersMoved) {
   StartShapes starts(distance);
   const std::size_t last = drive_m.size() - 1;
   for (std::size_t s = 0; s < last; ++s)
-    starts.Learn(s, ShapeAt_m(drive_m[s], 1.0), Balanced(drive_m[s], kStiffer).middle);
+    starts.Learn(s, Balanced(drive_m[s], 1.0).middle, Balanced(drive_m[s], kStiffer).middle);
   HeldShape shape = Balanced(drive_m[last], 1.0).middle;
   ASSERT_TRUE(starts.Begin(last, {}, &shape));
   const Eigen::VectorXd truth_m = ShapeAt_m(drive_m[last], kStiffer);
   const double change_m = (truth_m - ShapeAt_m(drive_m[last], 1.0)).norm();
   EXPECT_LT((shape.state.x_m - truth_m).norm(), 0.02 * change_m);
+}
+
+/// A command that is held: what its samples differ by beside the drive, they keep.
+TEST_F(StartShapesTest, MovesAsTheSampleOfTheSameDrive) {
+  for (const double first_m : {0.0, 0.05, 0.1, 0.05}) Add(first_m, 0.0);
+  const DriveDistance distance(observed_, parts_);
+  StartShapes starts(distance);
+  SimulatedSample was = Balanced(0.05, 1.0);
+  SimulatedSample now = Balanced(0.05, 1.1);
+  was.middle.state.multipliers_N = Eigen::VectorXd::Constant(1, 2.0);
+  now.middle.state.multipliers_N = Eigen::VectorXd::Constant(1, 2.5);
+  for (const double first_m : {0.0, 0.1})
+    starts.Learn(first_m > 0.0 ? 2 : 0, Balanced(first_m, 1.0).middle,
+                 Balanced(first_m, 1.1).middle);
+  starts.Learn(1, was.middle, now.middle);
+  HeldShape shape = was.middle;
+  shape.state.x_m[4] += 0.01;
+  ASSERT_TRUE(starts.Begin(3, {}, &shape));
+  Eigen::VectorXd expected_m = now.middle.state.x_m;
+  expected_m[4] += 0.01;
+  EXPECT_LT((shape.state.x_m - expected_m).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_DOUBLE_EQ(shape.state.multipliers_N[0], 2.5);
+  // A cable that becomes slack is noticed by that.
+  shape = was.middle;
+  shape.state.multipliers_N[0] = 0.0;
+  ASSERT_TRUE(starts.Begin(3, {}, &shape));
+  EXPECT_EQ(shape.state.multipliers_N[0], 0.0);
 }
 
 /// Differences of robots that hardly differ would hold two errors of the balance instead of none.
@@ -105,7 +164,7 @@ TEST_F(StartShapesTest, StaysWhereOthersHardlyMoved) {
   Add(0.06, 0.0);
   const DriveDistance distance(observed_, parts_);
   StartShapes starts(distance);
-  starts.Learn(0, ShapeAt_m(0.05, 1.0), Balanced(0.05, 1.001).middle);
+  starts.Learn(0, Balanced(0.05, 1.0).middle, Balanced(0.05, 1.001).middle);
   HeldShape shape = Balanced(0.06, 1.0).middle;
   EXPECT_FALSE(starts.Begin(1, {}, &shape));
   EXPECT_EQ(shape.state.x_m, ShapeAt_m(0.06, 1.0));
