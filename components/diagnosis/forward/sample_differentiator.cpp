@@ -134,13 +134,24 @@ Status SampleDifferentiator::AddPushes(const FaultContext& at, Eigen::MatrixXd* 
   return Status::Ok();
 }
 
+/// Rows of a shape are solved once, unless they are of a surface, which each sample has others of,
+/// or an obstacle's are solved between them.
+Status SampleDifferentiator::ComputeRows(const FaultContext& at) {
+  TangentState here = solver_.TangentStateAt(at.shape.state);
+  if (rows_at_ && here.IsSame(*rows_at_))
+    return of_rows_.ComputeAgain(at.shape.commands, at.shape.state, acting_);
+  rows_at_.reset();
+  Observe(at);
+  const Status status = of_rows_.Compute(at.shape.commands, at.shape.state, acting_);
+  if (status.ok() && !at.observed.HasSurface() && !hypothesis_.obstacle) rows_at_ = std::move(here);
+  return status;
+}
+
 Eigen::MatrixXd SampleDifferentiator::At(const FaultContext& at) {
   Eigen::MatrixXd jacobian_m =
       Eigen::MatrixXd::Zero(at.observed.CoordinateCount(), parameter_count_);
   Collect(at);
-  Observe(at);
-  const bool known = at.simulated().status.ok() &&
-                     of_rows_.Compute(at.shape.commands, at.shape.state, acting_).ok();
+  const bool known = at.simulated().status.ok() && ComputeRows(at).ok();
   if (!known) return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
     jacobian_m(coordinate_of_, column_of_[k]) = of_rows_.motion_m().col(ToIndex(k));

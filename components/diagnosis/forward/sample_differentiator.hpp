@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "components/diagnosis/forward/actuator_chain.hpp"
@@ -27,7 +28,8 @@ std::vector<Eigen::MatrixXd> ActuatorChanges(const ActuatorChain& train,
 /// their tension changes is counted, what a compliant base then turns by is not. For one thread.
 class SampleDifferentiator {
  public:
-  /// All must outlive it. `solver` is prepared for each sample before.
+  /// All must outlive it. `solver` is prepared for each sample before, and in its parts as they
+  /// slide. Samples of the same shape one after the other cost less.
   SampleDifferentiator(const ModelHypothesis& hypothesis, const FaultModelList& models,
                        const Eigen::VectorXd& z, const std::vector<bool>& wanted,
                        const std::vector<Eigen::MatrixXd>& actuator_change,
@@ -47,6 +49,7 @@ class SampleDifferentiator {
 
   static std::vector<WantedParameter> Wanted(const FaultModelList& models, const Eigen::VectorXd& z,
                                              const std::vector<bool>& wanted);
+  Status ComputeRows(const FaultContext& at);
   void Collect(const FaultContext& at);
   Status AddPushes(const FaultContext& at, Eigen::MatrixXd* jacobian_m);
   void Observe(const FaultContext& at);
@@ -63,6 +66,7 @@ class SampleDifferentiator {
   std::vector<robot::ObservationRow> rows_;  ///< what is measured here, on the body
   std::vector<Eigen::Index> coordinate_of_;  ///< [rows]
   robot::PointSensitivity of_rows_;
+  std::optional<TangentState> rows_at_;  ///< of of_rows_, where another sample may have the same
   robot::SensitivitySolver of_body_;
   std::vector<robot::ParameterPtr> acting_;  ///< on the body, here
   std::vector<Eigen::Index> column_of_;      ///< [acting] of the parameter

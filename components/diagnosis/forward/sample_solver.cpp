@@ -144,10 +144,14 @@ void SampleSolver::Prepare(const Sample& sample, const HistoryVariables& history
                                              : Eigen::VectorXd::Ones(cell_volume_m3_.size()));
   }
   kept_.Set(points_, history_variables.stress_Pa);
+  prepared_.modulus_change = hypothesis_.modulus_change_at_end * share;
+  prepared_.history_variables = history_variables;
   model_.SetGravity(GravityIn(hypothesis_, observed_.recordings[At(sample.recording)]));
 }
 
 void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
+  prepared_.friction = FrictionOfEyelets();
+  if (sliding.size() > 0) prepared_.friction.array() *= sliding.array();
   std::vector<robot::CableFriction> friction;  // [cables]
   for (const robot::BodyCable& cable : hypothesis_.body.cables) {
     friction.push_back({cable.friction_coefficient, {}});
@@ -163,7 +167,19 @@ void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
 
 robot::EyeletSlides SampleSolver::SlidesAboutShape(const HeldShape& shape) {
   if (eyelets_.empty()) return {};
-  return robot::SlidesAbout(eyelets_, shape.commands, shape.state, model_, &sensitivity_);
+  const TangentState here = TangentStateAt(shape.state);
+  if (!here.IsSame(known_slides_.at) || shape.commands != known_slides_.commands) {
+    known_slides_ = {
+        here, shape.commands,
+        robot::SlidesAbout(eyelets_, shape.commands, shape.state, model_, &sensitivity_)};
+  }
+  return known_slides_.slides;
+}
+
+TangentState SampleSolver::TangentStateAt(const fem::StaticState& state) const {
+  TangentState here = prepared_;
+  here.state = state;
+  return here;
 }
 
 Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {

@@ -13,6 +13,7 @@
 #include "components/diagnosis/forward/model_hypothesis.hpp"
 #include "components/diagnosis/forward/obstacle_balance.hpp"
 #include "components/diagnosis/forward/simulation.hpp"
+#include "components/diagnosis/forward/tangent_state.hpp"
 #include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
@@ -62,6 +63,8 @@ class SampleSolver {
   }
   /// About `shape`, which was solved last.
   robot::EyeletSlides SlidesAboutShape(const HeldShape& shape);
+  /// Of the sample that it was prepared for last, with what slides in it.
+  TangentState TangentStateAt(const fem::StaticState& state) const;
 
  private:
   std::vector<robot::ActuatorCommand> Commands(const Eigen::VectorXd& taken_in) const;
@@ -88,6 +91,13 @@ class SampleSolver {
   MarkerNormals skin_;
   Eigen::VectorXd cell_volume_m3_;
   Eigen::VectorXd zero_shift_m_;  ///< [actuators] of cables: of the shape that they were zeroed at
+  TangentState prepared_;         ///< but its state
+  /// The last slides, kept for a sample of the same shape.
+  struct {
+    TangentState at;
+    std::vector<robot::ActuatorCommand> commands;
+    robot::EyeletSlides slides;
+  } known_slides_;
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d base_middle_m_;
 };

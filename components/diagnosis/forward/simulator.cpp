@@ -42,6 +42,28 @@ std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed,
   return shares;
 }
 
+/// The samples, each after one that has its shape.
+std::vector<std::size_t> SameShapesTogether(const std::vector<std::size_t>& samples,
+                                            const Simulation& simulation) {
+  const auto shape = [&](std::size_t s) -> const Eigen::VectorXd& {
+    return simulation.samples[s].middle.state.x_m;
+  };
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t s : samples) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      return shape(group.front()).size() == shape(s).size() && shape(group.front()) == shape(s);
+    });
+    if (same == groups.end()) {
+      groups.push_back({s});
+    } else {
+      same->push_back(s);
+    }
+  }
+  std::vector<std::size_t> together;
+  for (const auto& group : groups) together.insert(together.end(), group.begin(), group.end());
+  return together;
+}
+
 void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
                const std::function<void(const std::vector<std::size_t>&)>& work) {
   std::vector<std::jthread> threads;
@@ -215,7 +237,7 @@ void Simulator::Differentiate(const ModelHypothesis& hypothesis, const FaultMode
     SampleSolver solver(hypothesis, observed_);
     SampleDifferentiator differentiator(hypothesis, models, z, wanted, actuator_change, observed_,
                                         &solver);
-    for (const std::size_t s : share) {
+    for (const std::size_t s : SameShapesTogether(share, *simulation)) {
       SimulatedSample& sample = simulation->samples[s];
       solver.Prepare(observed_.samples[s], simulation->history_variables[s]);
       const auto jacobian_m = [&](const HeldShape& shape) -> Eigen::MatrixXd {
