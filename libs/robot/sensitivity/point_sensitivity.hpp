@@ -38,8 +38,8 @@ class PointSensitivity {
   /// As SensitivitySolver::Compute, with the same refusals.
   Status Compute(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                  std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
-  /// The same at the state of the last Compute, which was ok, with the rows and the tangent that it
-  /// had: nothing is solved again. Dead loads and commands may be others.
+  /// The same at the state of the last Compute, which was ok, with the rows, the tangent and the
+  /// dead loads that it had: nothing is solved again. Commands may be others.
   Status ComputeAgain(const std::vector<ActuatorCommand>& cables, const fem::StaticState& state,
                       std::span<const ParameterPtr> parameters);
 
