@@ -4,13 +4,12 @@
 #include "components/diagnosis/inference/linear_model.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <thread>
 
 #include "libs/core/index.hpp"
+#include "libs/core/parallel_for.hpp"
 #include "libs/linalg/product.hpp"
 #include "libs/linalg/svd.hpp"
 
@@ -164,9 +163,17 @@ void Information::Remove(const Information& part) {
 
 void LinearModel::Sum(const Eigen::VectorXd& about) { all_ = InformationOf(J, y, about); }
 
-Information LinearModel::OfRecording(std::size_t recording) const {
+Eigen::Index LinearModel::FirstRowOf(std::size_t recording) const {
   const auto end = rows_of_recording.begin() + ToIndex(recording);
-  const Eigen::Index first = std::accumulate(rows_of_recording.begin(), end, Eigen::Index{0});
+  return std::accumulate(rows_of_recording.begin(), end, Eigen::Index{0});
+}
+
+Eigen::MatrixXd LinearModel::RowsOf(std::size_t recording) const {
+  return J.middleRows(FirstRowOf(recording), rows_of_recording[recording]);
+}
+
+Information LinearModel::OfRecording(std::size_t recording) const {
+  const Eigen::Index first = FirstRowOf(recording);
   const Eigen::Index rows = rows_of_recording[recording];
   return InformationOf(J.middleRows(first, rows), y.segment(first, rows), all_.about);
 }
@@ -201,24 +208,15 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
   std::vector<Eigen::Index> first_of;
   std::exclusive_scan(model.rows_of_recording.begin(), model.rows_of_recording.end(),
                       std::back_inserter(first_of), Eigen::Index{0});
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t r = next++; r < series.size(); r = next++) {
-      const RecordingRows rows = RowsOf(observed, simulation, z, series[r]);
-      const Eigen::Index count = rows.J_y.rows();
-      model.J.middleRows(first_of[r], count) = rows.J_y.leftCols(z.size());
-      model.y.segment(first_of[r], count) = rows.J_y.col(z.size());
-      std::copy(rows.samples.begin(), rows.samples.end(),
-                model.sample_of_row.begin() + first_of[r]);
-      std::copy(rows.coordinates.begin(), rows.coordinates.end(),
-                model.coordinate_of_row.begin() + first_of[r]);
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int k = 1; k < threads; ++k) others.emplace_back(work);
-    work();
-  }
+  ParallelFor(series.size(), threads, [&](std::size_t r) {
+    const RecordingRows rows = RowsOf(observed, simulation, z, series[r]);
+    const Eigen::Index count = rows.J_y.rows();
+    model.J.middleRows(first_of[r], count) = rows.J_y.leftCols(z.size());
+    model.y.segment(first_of[r], count) = rows.J_y.col(z.size());
+    std::copy(rows.samples.begin(), rows.samples.end(), model.sample_of_row.begin() + first_of[r]);
+    std::copy(rows.coordinates.begin(), rows.coordinates.end(),
+              model.coordinate_of_row.begin() + first_of[r]);
+  });
   model.Sum(z);
   return model;
 }

@@ -40,10 +40,13 @@ struct LinearModel {
   const Information& All() const { return all_; }
   /// The z about which it is linear is another than that of y.
   void SetAbout(const Eigen::VectorXd& z) { all_.about = z; }
+  Eigen::MatrixXd RowsOf(std::size_t recording) const;  ///< of J
   Information OfRecording(std::size_t recording) const;
   Information AllBut(std::size_t recording) const;
 
  private:
+  Eigen::Index FirstRowOf(std::size_t recording) const;
+
   Information all_{0};
 };
 
