@@ -3,8 +3,6 @@
 
 #include "components/diagnosis/design/divergence.hpp"
 
-#include "libs/linalg/cholesky.hpp"
-
 namespace palpate::diagnosis {
 
 namespace {
@@ -17,18 +15,18 @@ Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& J, const Posterior& posterio
 
 }  // namespace
 
-double ExpectedLnBayesFactor(const Eigen::MatrixXd& J, const Posterior& a, const Posterior& b) {
-  const Eigen::MatrixXd covariance_a = CovarianceOf(J, a);
-  const linalg::Cholesky factor_a(covariance_a);
-  const linalg::Cholesky factor_b(CovarianceOf(J, b));
-  const Eigen::VectorXd apart = J * (a.mean - b.mean);
+Prediction::Prediction(const Eigen::MatrixXd& J, const Posterior& posterior)
+    : mean(J * posterior.mean), covariance(CovarianceOf(J, posterior)), factor(covariance) {}
+
+double ExpectedLnBayesFactor(const Prediction& a, const Prediction& b) {
+  const Eigen::VectorXd apart = a.mean - b.mean;
   return 0.5 *
-         (factor_b.Solve(covariance_a).trace() - static_cast<double>(J.rows()) +
-          apart.dot(factor_b.Solve(apart)) + factor_b.LnDeterminant() - factor_a.LnDeterminant());
+         (b.factor.Solve(a.covariance).trace() - static_cast<double>(apart.size()) +
+          apart.dot(b.factor.Solve(apart)) + b.factor.LnDeterminant() - a.factor.LnDeterminant());
 }
 
 double InformationGain(const Eigen::MatrixXd& J, const Posterior& posterior,
-                       const std::vector<Eigen::Index>& parameters) {
+                       const std::vector<Eigen::Index>& parameters, const Prediction& predicted) {
   std::vector<Eigen::Index> free;
   for (const Eigen::Index p : parameters) {
     if (posterior.covariance(p, p) > 0.0) free.push_back(p);
@@ -36,8 +34,7 @@ double InformationGain(const Eigen::MatrixXd& J, const Posterior& posterior,
   if (free.empty()) return 0.0;
   const Eigen::MatrixXd before = posterior.covariance(free, free);
   const Eigen::MatrixXd seen = J * posterior.covariance(Eigen::all, free);
-  const linalg::Cholesky factor(CovarianceOf(J, posterior));
-  const Eigen::MatrixXd after = before - seen.transpose() * factor.Solve(seen);
+  const Eigen::MatrixXd after = before - seen.transpose() * predicted.factor.Solve(seen);
   // Of unit variances, lest those in metres and in newtons spoil each other's digits.
   constexpr double kRounding = 1e-9;
   const Eigen::VectorXd scale = before.diagonal().cwiseSqrt().cwiseInverse();

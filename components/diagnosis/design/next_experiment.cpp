@@ -10,6 +10,7 @@
 
 #include "components/diagnosis/design/divergence.hpp"
 #include "components/diagnosis/design/planned_experiment.hpp"
+#include "libs/core/parallel_for.hpp"
 
 namespace palpate::diagnosis {
 
@@ -95,20 +96,23 @@ std::vector<int> ColumnsOf(const HypothesisSet& hypotheses, const Question& ques
   return {columns.begin(), columns.end()};
 }
 
-/// What is expected of one proposal, whose rows these are.
+/// What is expected of one proposal, whose rows these are; infinite where there are none.
 RankedProposal Rank(const Proposal& proposal, const Eigen::MatrixXd& J, const Question& question,
                     const std::vector<Eigen::Index>& parameters) {
   RankedProposal ranked{.proposal = proposal, .worst_rival = {}};
   ranked.expected_ln_bayes_factor = std::numeric_limits<double>::infinity();
-  const Posterior& best = question.best.posterior;
-  for (const Hypothesis& rival : question.rivals) {
-    const double expected = std::min(ExpectedLnBayesFactor(J, best, rival.posterior),
-                                     ExpectedLnBayesFactor(J, rival.posterior, best));
+  if (J.rows() == 0) return ranked;
+  const Posterior& posterior = question.best.posterior;
+  const Prediction best(J, posterior);
+  for (const Hypothesis& one : question.rivals) {
+    const Prediction rival(J, one.posterior);
+    const double expected =
+        std::min(ExpectedLnBayesFactor(best, rival), ExpectedLnBayesFactor(rival, best));
     if (expected >= ranked.expected_ln_bayes_factor) continue;
     ranked.expected_ln_bayes_factor = expected;
-    ranked.worst_rival = rival.name;
+    ranked.worst_rival = one.name;
   }
-  ranked.information = InformationGain(J, best, parameters);
+  ranked.information = InformationGain(J, posterior, parameters, best);
   return ranked;
 }
 
@@ -158,17 +162,14 @@ std::vector<RankedProposal> RankProposals(const experiment::Experiment& experime
   const std::vector<int>& in_question =
       question.best.faults.empty() ? question.rivals.front().faults : question.best.faults;
   const std::vector<Eigen::Index> parameters = hypotheses.ParametersOf({in_question.front()});
-  std::vector<RankedProposal> ranked;
-  Eigen::Index first = 0;
-  for (std::size_t r = 0; r < planned.recordings.size(); ++r) {
-    const Eigen::Index rows = model.rows_of_recording[r];
-    if (rows > 0) {
-      const RankedProposal one = Rank(proposals[r - observed.recordings.size()],
-                                      model.J.middleRows(first, rows), question, parameters);
-      if (std::isfinite(one.expected_ln_bayes_factor)) ranked.push_back(one);
-    }
-    first += rows;
-  }
+  std::vector<RankedProposal> ranked(proposals.size());
+  ParallelFor(proposals.size(), threads, [&](std::size_t k) {
+    ranked[k] =
+        Rank(proposals[k], model.RowsOf(observed.recordings.size() + k), question, parameters);
+  });
+  std::erase_if(ranked, [](const RankedProposal& one) {
+    return !std::isfinite(one.expected_ln_bayes_factor);
+  });
   std::stable_sort(ranked.begin(), ranked.end(), IsBetter);
   return ranked;
 }

@@ -28,12 +28,20 @@ class ExpectedEvidence : public testing::Test {
     return {.mean = Random(kParameters, 1), .covariance = 0.3 * root * root.transpose()};
   }
 
+  static double Expected(const Eigen::MatrixXd& J, const Posterior& a, const Posterior& b) {
+    return ExpectedLnBayesFactor({J, a}, {J, b});
+  }
+  static double Gained(const Eigen::MatrixXd& J, const Posterior& posterior,
+                       const std::vector<Eigen::Index>& parameters) {
+    return InformationGain(J, posterior, parameters, {J, posterior});
+  }
+
   std::mt19937 random_{kDivergenceSeed};
 };
 
 TEST_F(ExpectedEvidence, IsNothingBetweenAModelAndItself) {
   const Posterior posterior = RandomPosterior();
-  EXPECT_NEAR(ExpectedLnBayesFactor(Random(kRows, kParameters), posterior, posterior), 0.0, 1e-10);
+  EXPECT_NEAR(Expected(Random(kRows, kParameters), posterior, posterior), 0.0, 1e-10);
 }
 
 TEST_F(ExpectedEvidence, OfModelsThatPredictTheSameIsNothing) {
@@ -43,7 +51,7 @@ TEST_F(ExpectedEvidence, OfModelsThatPredictTheSameIsNothing) {
   b.covariance(2, 2) += 5.0;
   Eigen::MatrixXd J = Random(kRows, kParameters);
   J.col(2).setZero();
-  EXPECT_NEAR(ExpectedLnBayesFactor(J, a, b), 0.0, 1e-10);
+  EXPECT_NEAR(Expected(J, a, b), 0.0, 1e-10);
 }
 
 TEST_F(ExpectedEvidence, IsNeverBelowNothingAndGrowsWithTheData) {
@@ -53,7 +61,7 @@ TEST_F(ExpectedEvidence, IsNeverBelowNothingAndGrowsWithTheData) {
     const Eigen::MatrixXd J = Random(kRows, kParameters);
     double before = 0.0;
     for (Eigen::Index rows = 1; rows <= kRows; ++rows) {
-      const double now = ExpectedLnBayesFactor(J.topRows(rows), a, b);
+      const double now = Expected(J.topRows(rows), a, b);
       EXPECT_GT(now, before - 1e-9)
           << "seed " << kDivergenceSeed << " pair " << k << " rows " << rows;
       before = now;
@@ -68,7 +76,7 @@ TEST_F(ExpectedEvidence, OfKnownModelsIsHalfTheSquareOfWhatTheyDifferBy) {
   a.covariance.setZero();
   b.covariance.setZero();
   const Eigen::MatrixXd J = Random(kRows, kParameters);
-  EXPECT_NEAR(ExpectedLnBayesFactor(J, a, b), 0.5 * (J * (a.mean - b.mean)).squaredNorm(), 1e-9);
+  EXPECT_NEAR(Expected(J, a, b), 0.5 * (J * (a.mean - b.mean)).squaredNorm(), 1e-9);
 }
 
 /// What data of the one model say, drawn.
@@ -96,7 +104,7 @@ TEST_F(ExpectedEvidence, IsTheMeanOfWhatDataSay) {
   }
   const double mean = sum / kDraws;
   const double sigma = std::sqrt((squares / kDraws - mean * mean) / kDraws);
-  EXPECT_NEAR(ExpectedLnBayesFactor(J, a, b), mean, 4.0 * sigma) << "seed " << kDivergenceSeed;
+  EXPECT_NEAR(Expected(J, a, b), mean, 4.0 * sigma) << "seed " << kDivergenceSeed;
 }
 
 TEST_F(ExpectedEvidence, InformationIsWhatAPosteriorShrinksBy) {
@@ -107,12 +115,12 @@ TEST_F(ExpectedEvidence, InformationIsWhatAPosteriorShrinksBy) {
   const std::vector<Eigen::Index> some = {1, 3};
   const double ln_ratio = linalg::Cholesky(before.covariance(some, some)).LnDeterminant() -
                           linalg::Cholesky(after(some, some)).LnDeterminant();
-  EXPECT_NEAR(InformationGain(J, before, some), 0.5 * ln_ratio, 1e-6);
-  EXPECT_NEAR(InformationGain(0.0 * J, before, some), 0.0, 1e-9);
+  EXPECT_NEAR(Gained(J, before, some), 0.5 * ln_ratio, 1e-6);
+  EXPECT_NEAR(Gained(0.0 * J, before, some), 0.0, 1e-9);
   Posterior held = before;
   held.covariance.row(1).setZero();
   held.covariance.col(1).setZero();
-  EXPECT_EQ(InformationGain(J, held, {1}), 0.0);
+  EXPECT_EQ(Gained(J, held, {1}), 0.0);
 }
 
 }  // namespace
