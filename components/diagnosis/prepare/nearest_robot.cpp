@@ -15,6 +15,7 @@
 #include "components/diagnosis/forward/simulator.hpp"
 #include "components/diagnosis/prepare/telling_samples.hpp"
 #include "components/diagnosis/surface/surface_matcher.hpp"
+#include "libs/core/parallel_for.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/geometry/closest_point.hpp"
 
@@ -52,6 +53,12 @@ double MeanSquare_m2(const Eigen::VectorXd& a_m, const Eigen::VectorXd& b_m) {
   return (a_m - b_m).squaredNorm() / (static_cast<double>(a_m.size()) / 3.0);
 }
 
+/// A robot that is bent far off.
+struct FarOff {
+  ModelHypothesis hypothesis;
+  std::optional<Simulated> simulated;
+};
+
 /// Mean square over the nodes between the two samples that are most alike and driven by different
 /// actuators, as far as distances count, m2.
 double BetweenMostAlike_m2(const Telling& telling, const Simulated& robot) {
@@ -87,11 +94,11 @@ class Distance {
            const ModelHypothesis& as_in_file)
       : telling_(telling.observed),
         all_(telling_, threads),
-        surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
+        undeformed_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
     for (const Sample& sample : telling_.samples) {
       ObservedExperiment& one = alone_.emplace_back(telling_);
       one.samples = {sample};
-      simulators_.emplace_back(one, threads);
+      simulators_.emplace_back(one, 1);
     }
     if (source == nullptr) return;
     SurfaceMatcher matcher(body);
@@ -155,13 +162,13 @@ class Distance {
     const auto r = static_cast<std::size_t>(telling_.samples[s].recording);
     const Eigen::Isometry3d T_robot_camera = telling_.recordings[r].T_camera_robot->inverse();
     std::vector<double> distances_m;
+    geometry::SurfaceIndex surface = undeformed_;
     for (const SeenCloud& seen : clouds_[s]) {
-      surface_.Refit(shapes.At(seen.frame.t_s, shapes.nodes_m).cast<double>());
+      surface.Refit(shapes.At(seen.frame.t_s, shapes.nodes_m).cast<double>());
       const Eigen::Index step = std::max<Eigen::Index>(1, seen.cloud.points_m.cols() / kPoints);
       for (Eigen::Index k = 0; k < seen.cloud.points_m.cols(); k += step) {
         distances_m.push_back(
-            surface_.Closest(T_robot_camera * seen.cloud.points_m.col(k).cast<double>())
-                .distance_m);
+            surface.Closest(T_robot_camera * seen.cloud.points_m.col(k).cast<double>()).distance_m);
       }
     }
     return distances_m;
@@ -171,7 +178,7 @@ class Distance {
   Simulator all_;
   std::deque<ObservedExperiment> alone_;  ///< by sample; referred to by its simulator
   std::deque<Simulator> simulators_;
-  mutable geometry::SurfaceIndex surface_;  ///< moved to the shape that it is asked about
+  geometry::SurfaceIndex undeformed_;
   SurfaceClouds clouds_;
 };
 
@@ -195,14 +202,21 @@ NearestRobot FindNearestRobot(const robot::RobotBody& body, const ObservedExperi
   MakeSwappedTubes({.body = body, .observed = telling.observed}, &far_off);
   MakeBlockedValve({.body = body, .observed = telling.observed}, &far_off);
   double least_m2 = as_in_file->sum_m2;
-  for (const FaultModelPtr& fault : far_off) {
-    ModelHypothesis hypothesis = NominalHypothesis(body, observed);
-    fault->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
-    const std::optional<Simulated> other = distance.IfNearer(hypothesis, least_m2);
-    if (!other || !(other->sum_m2 < least_m2) || !IsClearlyNearer(*other, *as_in_file)) continue;
-    least_m2 = other->sum_m2;
-    nearest.hypothesis = std::move(hypothesis);
-    nearest.fault = LikelyFault{fault->name(), fault->Start()};
+  const ModelHypothesis of_file = nearest.hypothesis;
+  const auto at_once = static_cast<std::size_t>(threads);
+  for (std::size_t first = 0; first < far_off.size(); first += at_once) {
+    std::vector<FarOff> tried(std::min(at_once, far_off.size() - first), {of_file, {}});
+    ParallelFor(tried.size(), threads, [&](std::size_t k) {
+      far_off[first + k]->Apply(Eigen::VectorXd::Ones(1), &tried[k].hypothesis);
+      tried[k].simulated = distance.IfNearer(tried[k].hypothesis, least_m2);
+    });
+    for (std::size_t k = 0; k < tried.size(); ++k) {
+      const std::optional<Simulated>& other = tried[k].simulated;
+      if (!other || !(other->sum_m2 < least_m2) || !IsClearlyNearer(*other, *as_in_file)) continue;
+      least_m2 = other->sum_m2;
+      nearest.hypothesis = std::move(tried[k].hypothesis);
+      nearest.fault = LikelyFault{far_off[first + k]->name(), far_off[first + k]->Start()};
+    }
   }
   return nearest;
 }
