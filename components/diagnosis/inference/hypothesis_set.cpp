@@ -22,26 +22,30 @@ double FirstTolerance(const std::vector<FaultParameter>& parameters) {
   return first.component ? std::sqrt(components) * first.tolerance : first.tolerance;
 }
 
+/// Of one parameter, where that of the first is given.
+double GivenTolerance(const std::vector<FaultParameter>& parameters, std::size_t p,
+                      double given_of_first) {
+  const double first = FirstTolerance(parameters);
+  if (first > 0.0) return parameters[p].tolerance * given_of_first / first;
+  return p == 0 ? given_of_first : parameters[p].tolerance;
+}
+
 }  // namespace
 
 HypothesisSet::HypothesisSet(std::vector<FaultModelPtr> models,
-                             std::map<std::string, double> tolerances)
-    : models_(std::move(models)), first_{0}, tolerances_(std::move(tolerances)) {
+                             const std::map<std::string, double>& tolerances)
+    : models_(std::move(models)), first_{0} {
   for (const FaultModelPtr& fault : models_) {
-    first_.push_back(first_.back() + std::ssize(fault->parameters()));
-    for (const FaultParameter& parameter : fault->parameters()) {
-      group_of_.push_back(static_cast<int>(parameter.group));
+    const std::vector<FaultParameter>& parameters = fault->parameters();
+    first_.push_back(first_.back() + std::ssize(parameters));
+    const auto given = tolerances.find(fault->name().id);
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      group_of_.push_back(static_cast<int>(parameters[p].group));
+      tolerance_.push_back(given == tolerances.end()
+                               ? parameters[p].tolerance
+                               : GivenTolerance(parameters, p, given->second));
     }
   }
-}
-
-double HypothesisSet::ToleranceOf(int k, int parameter) const {
-  const auto& parameters = model(k).parameters();
-  const double own = parameters[At(parameter)].tolerance;
-  const auto given = tolerances_.find(model(k).name().id);
-  if (given == tolerances_.end()) return own;
-  const double first = FirstTolerance(parameters);
-  return first > 0.0 ? own * given->second / first : parameter == 0 ? given->second : own;
 }
 
 bool HypothesisSet::CanBeFault(int k) const {

@@ -20,14 +20,14 @@ class HypothesisSet {
   /// `tolerances` (experiment.yaml): fault id -> sigma of its first parameter for a nominal robot,
   /// or of the length of the vector that this is a component of, the others in proportion. Other
   /// ids have no effect.
-  HypothesisSet(std::vector<FaultModelPtr> models, std::map<std::string, double> tolerances);
+  HypothesisSet(std::vector<FaultModelPtr> models, const std::map<std::string, double>& tolerances);
 
   int size() const { return static_cast<int>(models_.size()); }
   const FaultModel& model(int k) const { return *models_[At(k)]; }
   Eigen::Index parameter_count() const { return first_.back(); }
   Eigen::Index first(int k) const { return first_[At(k)]; }
   Eigen::Index count(int k) const { return first(k + 1) - first(k); }
-  double ToleranceOf(int k, int parameter) const;
+  double ToleranceOf(int k, int parameter) const { return tolerance_[At(first(k) + parameter)]; }
 
   /// Whether the one is a special case of the other (FaultModel::SpecialCase).
   bool IsSpecialCase(int special, int of) const {
@@ -63,8 +63,8 @@ class HypothesisSet {
  private:
   std::vector<FaultModelPtr> models_;
   std::vector<Eigen::Index> first_;  ///< [faults + 1]
-  std::map<std::string, double> tolerances_;
-  std::vector<int> group_of_;  ///< [parameters] of a deviation that is inferred; -1: none
+  std::vector<double> tolerance_;    ///< [parameters]
+  std::vector<int> group_of_;        ///< [parameters] of a deviation that is inferred; -1: none
 };
 
 }  // namespace palpate::diagnosis
