@@ -360,8 +360,7 @@ HistoryInput SampleSolver::HistoryInputAt(const HistoryVariables& history_variab
   return {(elastic_Pa / (1.0 + history_variables.scale)).cast<float>(), energy_J.cast<float>()};
 }
 
-HistoryInput SampleSolver::Rest() {
-  SimulatedSample rest;
+HistoryInput SampleSolver::Rest(HeldShape* shape) {
   Sample nothing;
   nothing.t_s = observed_.timeline.begin_s.front();
   // Of the actuators that are driven at all.
@@ -370,7 +369,14 @@ HistoryInput SampleSolver::Rest() {
   for (const Eigen::VectorXd& command : observed_.timeline.command) {
     zero = command.array().isNaN().select(zero, 0.0);
   }
+  SimulatedSample rest;
+  rest.middle = *shape;
   Solve(nothing, zero, {}, &rest);
+  if (!rest.status.ok() && shape->state.x_m.size() > 0) {
+    rest = {};
+    Solve(nothing, zero, {}, &rest);
+  }
+  *shape = rest.status.ok() ? rest.middle : HeldShape{};
   return HistoryInputAt({}, rest);
 }
 

@@ -51,8 +51,9 @@ class SampleSolver {
   /// failed.
   HistoryInput HistoryInputAt(const HistoryVariables& history_variables,
                               const SimulatedSample& solved);
-  /// The same at rest with every command at zero and nothing on the body.
-  HistoryInput Rest();
+  /// The same at rest with every command at zero and nothing on the body. `shape`: of another robot
+  /// at rest, from which this one's is sought, or none; then this one's, none where it failed.
+  HistoryInput Rest(HeldShape* shape);
   /// Puts the model's moduli and gravity to what they are at a sample.
   void Prepare(const Sample& sample, const HistoryVariables& history_variables);
   /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the actuators.

@@ -79,6 +79,7 @@ struct Simulation {
   Status status;  ///< of the first sample that failed
   std::vector<SimulatedSample> samples;
   HistoryInput at_rest;                ///< with every command at zero, as between recordings
+  HeldShape resting;                   ///< in which that is
   Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (history.hpp)
   std::vector<HistoryVariables> history_variables;  ///< [samples] with which they are in balance
 };

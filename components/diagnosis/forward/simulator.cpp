@@ -64,10 +64,22 @@ std::vector<std::size_t> SameShapesTogether(const std::vector<std::size_t>& samp
   return together;
 }
 
+/// Puts back the columns of faults that are not `wanted`.
+void KeepUnwanted(const FaultModelList& models, const std::vector<bool>& wanted,
+                  const Eigen::MatrixXd& before_m, Eigen::MatrixXd* jacobian_m) {
+  Eigen::Index first = 0;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const auto count = std::ssize(models[k]->parameters());
+    if (!wanted[k]) jacobian_m->middleCols(first, count) = before_m.middleCols(first, count);
+    first += count;
+  }
+}
+
 void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
                const std::function<void(const std::vector<std::size_t>&)>& work) {
   std::vector<std::jthread> threads;
   for (std::size_t k = 1; k < shares.size(); ++k) {
+    if (shares[k].empty()) continue;
     threads.emplace_back([&work, &share = shares[k]] { work(share); });
   }
   work(shares.front());
@@ -123,7 +135,7 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
     if (!kept) kept = std::make_unique<SampleSolver>(hypothesis, observed_);
     SampleSolver& solver = *kept;
     if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
-      simulation->at_rest = solver.Rest();
+      simulation->at_rest = solver.Rest(&simulation->resting);
     }
     StartShapes starts(distance);
     for (const std::size_t s : is_near ? share : distance.FromNearToFar(share)) {
@@ -254,6 +266,7 @@ void Simulator::Differentiate(const ModelHypothesis& hypothesis, const FaultMode
       };
       Eigen::MatrixXd mean_m = jacobian_m(sample.middle);
       for (const HeldShape& shape : sample.beside) mean_m += jacobian_m(shape);
+      if (sample.jacobian_m.size() > 0) KeepUnwanted(models, wanted, sample.jacobian_m, &mean_m);
       sample.jacobian_m = std::move(mean_m);
     }
   });

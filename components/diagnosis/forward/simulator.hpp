@@ -34,8 +34,8 @@ class Simulator {
                  Detail detail = Detail::kParts) const;
 
   /// Fills jacobian_m of all samples: columns for every parameter of `faults`, in their order, z at
-  /// `z` [parameters of all]; `hypothesis` is what these made. Of faults that are not `wanted`
-  /// [faults] the columns are 0.
+  /// `z` [parameters of all]; `hypothesis` is what these made. The columns of faults that are
+  /// not `wanted` [faults] stay as they are, 0 where there were none.
   void Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& models,
                      const Eigen::VectorXd& z, const std::vector<bool>& wanted,
                      const ModelHypothesis& nominal, Simulation* simulation) const;

@@ -105,7 +105,7 @@ void ExchangeOne(const Fitter& fitter, Selection* selection) {
       continue;
     }
     const int named = std::exchange(choice.fault, exchange.other);
-    selection->best = std::move(other);
+    selection->best = fitter.WithAllFaults(std::move(other));
     KeepAsRival(fitter, choice.fault, named, -ln_gain, selection);
     return;
   }
@@ -123,7 +123,7 @@ void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* sele
     if (choice.ln_bayes_factor < clear_evidence) {
       Fit without = fitter.Complete(fitter.Refine(others, best));
       if (without.status.ok()) {
-        selection->best = std::move(without);
+        selection->best = fitter.WithAllFaults(std::move(without));
         selection->named.erase(selection->named.begin() + ToIndex(k));
         continue;
       }

@@ -40,23 +40,22 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
   }
 }
 
-/// What the `wanted` faults do at fit->z, of the rest what they do in `others`; all in all detail,
-/// where there are no others.
-void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* others,
-                           Fit* fit) const {
+/// At `z`, begun from `from`, of which the Jacobians stay.
+Simulation Fitter::SimulateFrom(const Simulation& from, const Eigen::VectorXd& z,
+                                Detail detail) const {
+  Simulation simulation = simulator_.Run(HypothesisWith(nominal_, models_, z), &from, detail);
+  for (std::size_t s = 0; s < simulation.samples.size(); ++s)
+    simulation.samples[s].jacobian_m = from.samples[s].jacobian_m;
+  return simulation;
+}
+
+/// What the `wanted` faults do at fit->z, of the rest what is known of them already.
+void Fitter::Differentiate(const std::vector<bool>& wanted, Fit* fit) const {
   const ModelHypothesis hypothesis = HypothesisWith(nominal_, models_, fit->z);
-  Simulation& simulation = fit->simulation;
-  simulator_.Differentiate(hypothesis, models_, fit->z, wanted, nominal_, &simulation);
-  if (others == nullptr) {
-    simulator_.DifferentiateBySimulation(nominal_, models_, fit->z, &simulation);
-  }
-  for (std::size_t s = 0; s < simulation.samples.size() && others != nullptr; ++s) {
-    for (int k = 0; k < hypotheses_.size(); ++k) {
-      if (wanted[At(k)]) continue;
-      simulation.samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k)) =
-          others->samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k));
-    }
-  }
+  simulator_.Differentiate(hypothesis, models_, fit->z, wanted, nominal_, &fit->simulation);
+}
+
+void Fitter::Infer(Fit* fit) const {
   fit->model = LinearModelOf(*fit);
   fit->posterior = LinearPosterior(*fit, fit->faults);
 }
@@ -81,16 +80,46 @@ Fit Fitter::AsBuilt(const Simulation* simulated) const {
   return InAllDetail(std::move(fit));
 }
 
+/// Of what has no effect under the hypothesis of a fit, only the search for another one asks.
+std::vector<bool> Fitter::Acting(const std::vector<int>& faults) const {
+  const GaussianPrior prior = hypotheses_.PriorWith(faults);
+  std::vector<bool> acting(models_.size());
+  for (int k = 0; k < hypotheses_.size(); ++k) {
+    const bool elsewhere = std::any_of(faults.begin(), faults.end(), [&](int fault) {
+      return hypotheses_.model(fault).name() == hypotheses_.model(k).name();
+    });
+    const auto sigma = prior.sigma.segment(hypotheses_.first(k), hypotheses_.count(k));
+    acting[At(k)] = elsewhere || !sigma.isZero(0.0);
+  }
+  return acting;
+}
+
 Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   if (fit.complete || fit.simulation.samples.empty()) return fit;
   const Eigen::Index data = fit.model.y.size();
-  std::vector<bool> wanted(models_.size(), true);
+  fit.of_all_faults = fit.faults.empty();
+  std::vector<bool> wanted =
+      fit.of_all_faults ? std::vector<bool>(models_.size(), true) : Acting(fit.faults);
   for (int k = 0; k < hypotheses_.size() && near != nullptr; ++k) {
-    wanted[At(k)] = !IsKnownBySimulation(k, *near);
+    if (IsKnownBySimulation(k, *near)) wanted[At(k)] = false;
   }
-  Differentiate(wanted, near != nullptr ? &near->simulation : nullptr, &fit);
+  Differentiate(wanted, &fit);
+  if (near == nullptr) {
+    simulator_.DifferentiateBySimulation(nominal_, models_, fit.z, &fit.simulation);
+  }
+  Infer(&fit);
   if (fit.model.y.size() < data) fit.status = FewerData();
   fit.complete = true;
+  return fit;
+}
+
+Fit Fitter::WithAllFaults(Fit fit) const {
+  if (fit.of_all_faults || !fit.complete) return fit;
+  std::vector<bool> wanted = Acting(fit.faults);
+  wanted.flip();
+  Differentiate(wanted, &fit);
+  Infer(&fit);
+  fit.of_all_faults = true;
   return fit;
 }
 
@@ -101,13 +130,8 @@ Fit Fitter::WithFaults(const std::vector<int>& faults, const Fit& start) const {
 }
 
 Fit Fitter::Resimulated(Fit fit) const {
-  std::vector<Eigen::MatrixXd> jacobians_m;
-  for (const SimulatedSample& sample : fit.simulation.samples)
-    jacobians_m.push_back(sample.jacobian_m);
-  fit.simulation = simulator_.Run(HypothesisAt(fit), &fit.simulation, Detail::kAllParts);
+  fit.simulation = SimulateFrom(fit.simulation, fit.z, Detail::kAllParts);
   fit.status = fit.simulation.status;
-  for (std::size_t s = 0; s < jacobians_m.size(); ++s)
-    fit.simulation.samples[s].jacobian_m = std::move(jacobians_m[s]);
   return fit;
 }
 
@@ -124,12 +148,9 @@ Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
   Fit moved;
   moved.faults = fit.faults;
   moved.z = z;
-  moved.simulation = simulator_.Run(HypothesisWith(nominal_, models_, z), &fit.simulation);
+  moved.simulation = SimulateFrom(fit.simulation, z, Detail::kParts);
   moved.status = moved.simulation.status;
   if (!moved.status.ok()) return moved;
-  for (std::size_t s = 0; s < moved.simulation.samples.size(); ++s) {
-    moved.simulation.samples[s].jacobian_m = fit.simulation.samples[s].jacobian_m;
-  }
   moved.model = LinearModelOf(moved);
   moved.posterior.scale = fit.posterior.scale;
   if (moved.model.y.size() < fit.model.y.size()) moved.status = FewerData();
@@ -139,9 +160,7 @@ Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
 Fit Fitter::Complete(Fit fit) const {
   if (fit.arrived) return fit;
   if (fit.status.ok() && !fit.complete) {
-    fit.simulation = simulator_.Run(HypothesisWith(nominal_, models_, fit.z), &fit.simulation,
-                                    Detail::kAllParts);
-    fit.status = fit.simulation.status;
+    fit = Resimulated(std::move(fit));
     fit.bends_known = true;
   }
   if (fit.status.ok()) fit = InAllDetail(std::move(fit));
@@ -317,9 +336,11 @@ Fit Fitter::Simulated(const Eigen::VectorXd& z, const std::vector<int>& faults,
   Fit fit;
   fit.faults = faults;
   fit.z = z;
-  fit.simulation = simulator_.Run(HypothesisWith(nominal_, models_, z), &from, detail);
+  fit.simulation = SimulateFrom(from, z, detail);
   fit.status = fit.simulation.status;
-  if (fit.status.ok()) Differentiate(wanted, &from, &fit);
+  if (!fit.status.ok()) return fit;
+  Differentiate(wanted, &fit);
+  Infer(&fit);
   return fit;
 }
 

@@ -45,9 +45,11 @@ struct Fit {
   LinearModel model;
   /// How samples bend about their middles is of a body held as with these faults.
   bool bends_known = true;
-  bool complete = false;  ///< all columns of `model` are of this place
-  bool arrived = false;   ///< and it cannot be taken further
-  Posterior posterior;    ///< of all parameters
+  /// The columns of `model` are of this place, as far as they have an effect under the hypothesis.
+  bool complete = false;
+  bool of_all_faults = false;  ///< and so are all others
+  bool arrived = false;        ///< it is complete and cannot be taken further
+  Posterior posterior;         ///< of all parameters
   /// By how much ln p the first simulated step fitted worse than the linear model had promised.
   double ln_surprise = 0.0;
 };
@@ -77,9 +79,13 @@ class Fitter {
   /// The hypothesis `faults` at its prior mean, all else as in `start`, fully differentiated: the
   /// start for faults that are present or absent, and move the body far (exchanged cables).
   Fit WithFaults(const std::vector<int>& faults, const Fit& start) const;
-  /// The same fit with all Jacobian columns recomputed, continued until the data agree with the
-  /// linear model's prediction. A fit that could not be simulated is returned as it is.
+  /// The same fit with all Jacobian columns recomputed that have an effect under its hypothesis,
+  /// continued until the data agree with the linear model's prediction. A fit that could not be
+  /// simulated is returned as it is.
   Fit Complete(Fit fit) const;
+  /// The same complete fit with the columns of all faults, as the search for a further one needs
+  /// them.
+  Fit WithAllFaults(Fit fit) const;
   /// The fit at its parameters with measurements that have changed since (the surface matched
   /// again), fully differentiated; its optimum may be elsewhere now.
   Fit Remeasured(Fit fit) const;
@@ -133,7 +139,12 @@ class Fitter {
   Fit Continued(Fit fit) const;
   /// Whether the columns of fault k in a fit are of simulations.
   bool IsKnownBySimulation(int k, const Fit& fit) const;
-  void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
+  Simulation SimulateFrom(const Simulation& from, const Eigen::VectorXd& z, Detail detail) const;
+  void Differentiate(const std::vector<bool>& wanted, Fit* fit) const;
+  /// The linear model where the fit was simulated, and the posterior.
+  void Infer(Fit* fit) const;
+  /// [faults] whether one, or another of its name, may have an effect under a hypothesis.
+  std::vector<bool> Acting(const std::vector<int>& faults) const;
 
   const ObservedExperiment& observed_;
   const HypothesisSet& hypotheses_;

@@ -99,10 +99,10 @@ Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
     for (Candidate& indistinguishable : next.Indistinguishable())
       selection.indistinguishable.push_back(indistinguishable);
     if (fitter.hypotheses().model(next.choice().fault).RestartsSearch()) {
-      selection.best = next.fit();
+      selection.best = fitter.WithAllFaults(next.fit());
       break;
     }
-    selection.best = rematched(next.fit());
+    selection.best = fitter.WithAllFaults(rematched(next.fit()));
     if (number > 0) EliminateBackward(fitter, selection.clear_evidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }

@@ -17,8 +17,8 @@ namespace palpate::diagnosis {
 
 /// The result of forward selection with backward elimination.
 struct Selection {
-  Fit null_model;                            ///< within the manufacturing tolerances
-  Fit best;                                  ///< with the faults that were named
+  Fit null_model;  ///< within the manufacturing tolerances
+  Fit best;        ///< with the faults that were named; its columns are of all (Fit::of_all_faults)
   std::vector<Choice> named;                 ///< as they were found
   std::vector<Candidate> candidates;         ///< for the first place, the most probable first
   std::vector<Candidate> indistinguishable;  ///< that fit as well as what was named

@@ -21,7 +21,8 @@ class BackwardCheck : public HiddenFaults {
   Selection Named(const Fitter& fitter, const std::vector<int>& faults) const {
     Selection selection;
     selection.null_model = fitter.AsBuilt();
-    selection.best = fitter.Complete(fitter.Refine(faults, selection.null_model));
+    selection.best =
+        fitter.WithAllFaults(fitter.Complete(fitter.Refine(faults, selection.null_model)));
     for (const int fault : faults) {
       Choice& choice = selection.named.emplace_back(Choice{.fault = fault});
       choice.ln_gain_of_recording.resize(observed_.recordings.size());

@@ -99,6 +99,32 @@ TEST_F(FitterOfHealthyRobots, GoOnUntilTheDataFitAsPromised) {
   EXPECT_LT(LeftBy(fit), 1.1) << "seed " << kSeed;
 }
 
+/// A fit with a fault is of what has an effect beside it, until more is asked for.
+TEST_F(FitterOfHealthyRobots, DifferentiateByEveryFaultWhenAsked) {
+  Measure({{"cable_gain", "cable:aside", 0.2}});
+  const Fitter fitter(observed_, body_, hypotheses_, {.relative_error = 1e-6}, 1);
+  const int gain = Number("cable_gain", "cable:aside");
+  const Fit fit = fitter.Complete(fitter.Refine({gain}, fitter.AsBuilt()));
+  ASSERT_TRUE(fit.status.ok()) << fit.status.message();
+  EXPECT_FALSE(fit.of_all_faults);
+  const Fit all = fitter.WithAllFaults(fit);
+  EXPECT_TRUE(all.of_all_faults);
+  EXPECT_NEAR(all.posterior.ln_evidence, fit.posterior.ln_evidence, 1e-6);
+  Simulation anew = fit.simulation;
+  const ModelHypothesis nominal = NominalHypothesis(body_, observed_);
+  const FaultModelList models = hypotheses_.All();
+  Simulator(observed_, 1)
+      .Differentiate(HypothesisWith(nominal, models, fit.z), models, fit.z,
+                     std::vector<bool>(models.size(), true), nominal, &anew);
+  double left = 0.0;
+  for (std::size_t s = 0; s < anew.samples.size(); ++s) {
+    const Eigen::MatrixXd& expected_m = anew.samples[s].jacobian_m;
+    EXPECT_TRUE(all.simulation.samples[s].jacobian_m.isApprox(expected_m, 1e-12)) << "sample " << s;
+    left += (fit.simulation.samples[s].jacobian_m - expected_m).norm() / expected_m.norm();
+  }
+  EXPECT_GT(left, 1e-3) << "there is nothing to ask for";
+}
+
 TEST_F(FitterOfHealthyRobots, SimulatePlayThatIsBeyondItsTolerance) {
   constexpr double kPlay_m = 2e-3;  // twenty tolerances
   Measure({{"backlash", "cable:aside", kPlay_m}});

@@ -19,7 +19,7 @@ class FurtherCausesOfAGain : public HiddenFaults {
  protected:
   int Gain() const { return Number("cable_gain", "cable:up"); }
   Fit WithGain(const Fitter& fitter) const {
-    return fitter.Complete(fitter.Refine({Gain()}, fitter.AsBuilt()));
+    return fitter.WithAllFaults(fitter.Complete(fitter.Refine({Gain()}, fitter.AsBuilt())));
   }
   Eigen::MatrixXd Own(const Fit& fit) const {
     return fit.posterior.covariance.block(hypotheses_.first(Gain()), hypotheses_.first(Gain()), 1,
